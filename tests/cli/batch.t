@@ -404,6 +404,13 @@ $ printf '%s\n' output,floor a.png,brick.jpg b.png,../pipe >../t; retex-combine 
 # The same bits at any number of threads and whatever is kept in memory.
 $ printf '%s\n' output,floor,wall a.exr,brick.jpg b.exr,:scale=2:rotate=30\ brick.jpg,brick.jpg c.exr,,brick.jpg >../t; retex-combine -q s.exr --batch ../t; for o in '--threads 1 --memory 0' '--threads 2 --memory 0' '--threads 2'; do retex-combine -q s.exr --batch ../t $o --batch-root out --mkdir; for f in a b c; do cmp $f.exr out/$f.exr; done; rm -r out; done; rm [abc].exr; sh ../new
 
+# What several rows have on one target is filtered once, but not another placement, and not without memory. The bits are
+# those of single pictures, also where memory is short.
+$ { echo output,floor,wall,picture:auto-exposure; for f in '' ':rotate=20 '; do for w in '' ':scale=3 ' ':flip=u '; do echo "f$((n += 1)).exr,${f}brick.jpg,${w}brick.jpg,yes"; done; done; } >../t; for m in 2048 1 0; do retex-combine -v s.exr --batch ../t --batch-root m$m --mkdir --memory $m 2>&1 | grep -c ' found again, at most '; done; for k in 1 2 3 4 5 6; do retex-combine -q s.exr --batch ../t --rows $k-$k --batch-root one --mkdir; cmp one/f$k.exr m2048/f$k.exr; cmp one/f$k.exr m1/f$k.exr; cmp one/f$k.exr m0/f$k.exr; done; rm -r one m2048 m1 m0; sh ../new
+> 1
+> 1
+> 0
+
 # A large table is checked at once, in little memory.
 $ { echo output,floor,wall; for k in $(seq 5000); do echo "$k.png,:rotate=$k brick.jpg,\"rgb(0,0,1)\""; done; } >../t; make_peak ../peak timeout 10 retex-combine s.exr --batch ../t --dry-run | wc -l; awk '{ print ($1 < 64 ? "little" : $1) }' ../peak; sed -i '$s/5000/1/' ../t; retex-combine s.exr --batch ../t
 > 5000

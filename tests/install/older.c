@@ -160,6 +160,11 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     double exposure;
     CALL(retex_auto_exposure, &exposure, set, NULL, textures, params, 1);
     CALL(retex_estimate_error, set, NULL, textures, params, drop_rows, NULL, 1);
+    RetexKeptSamples *kept = NULL;
+    RetexKeptSamplesInfo *rows = OLDER(RetexKeptSamplesInfo, {.size = sizeof(RetexKeptSamplesInfo)});
+    CALL(retex_kept_samples_create, &kept, set, 0, NULL);
+    retex_kept_samples_get_info(kept, rows);
+    retex_kept_samples_close(&kept);
     CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
     RetexSet *same = NULL;
     CALL(retex_samples_refer, samples, set, "room.exr");

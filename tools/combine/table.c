@@ -1,4 +1,5 @@
 /* --batch: a picture for each row of a table. See job.h. */
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,6 +7,7 @@
 #include <retex/file_sum.h>
 
 #include "combine/job.h"
+#include "combine/reuse.h"
 
 /* Add the textures of --texture to a row, for targets that the row does not name. */
 static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
@@ -115,6 +117,7 @@ typedef struct Table {
     const Cli *cli;
     Job *job;
     KeptTextures kept;
+    Reuse reuse;
 } Table;
 
 /* The lamps of a row, and how its picture is developed; what it does not name is as the command line has it. */
@@ -161,20 +164,52 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
     return job_describe(job, all, complete_row(job, all, count), textures);
 }
 
-/* Load what all pictures need, corrections included. */
+/* The memory for samples that several pictures use: what the set leaves, if that is kept, and other samples. */
+static uint64_t memory_left(const Cli *cli, const Job *job, const int corrected[RETEX_MAX_TARGETS])
+{
+    const uint64_t memory = cli_memory(cli, job->memory), of_set = retex_set_preload_bytes(job->set, corrected);
+    const uint64_t left = of_set <= memory ? memory - of_set : memory;
+    const RetexSetInfo info = retex_set_info(job->set);
+    const uint64_t of_samples =
+        job->samples ? 3 * sizeof(float) * (uint64_t)info.width * (uint64_t)info.height *
+                           (uint64_t)retex_samples_info(job->samples).nfootprints
+                     : 0; /* at most */
+    return left > of_samples ? left - of_samples : 0;
+}
+
+/* Load what all pictures need, corrections included, and find what they have in common. */
 static int begin(void *context, RetexError *err)
 {
-    const Table *table = context;
+    Table *table = context;
     Job *job = table->job;
-    int corrected[RETEX_MAX_TARGETS] = {0};
-    for (int number = 0; number < job->batch.table.nrows; number++) {
+    int corrected[RETEX_MAX_TARGETS] = {0}, code = RETEX_OK;
+    for (int number = 0; number < job->batch.table.nrows && !code; number++) {
         RetexTextureSpec specs[RETEX_MAX_TARGETS];
         if (!batch_is_wanted(&job->batch, number))
             continue;
         const int nspecs = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
         job_add_corrected(job, specs, nspecs, corrected);
+        code = reuse_add_row(&table->reuse, job->set, number, specs, nspecs, err);
     }
-    return job_preload(table->cli, job, corrected, err);
+    if (!code)
+        code = reuse_plan(&table->reuse, memory_left(table->cli, job, corrected), err);
+    return code ? code : job_preload(table->cli, job, corrected, err);
+}
+
+/* Write the picture of a row, with what other rows have of it. */
+static int write_row(Table *table, int number, const Row *row, double began, RetexError *err)
+{
+    Job *job = table->job;
+    char path[PATH_MAX];
+    int code = batch_output(&job->batch, number, path, err);
+    if (code)
+        return code;
+    reuse_begin(&table->reuse, job->set, number);
+    job->combine.kept = table->reuse.kept;
+    code = job_make_picture(table->cli, job, row, path, began, err);
+    job->combine.kept = NULL;
+    reuse_end(&table->reuse, number);
+    return code;
 }
 
 static int make_row(void *context, int number, size_t *trial, RetexError *err)
@@ -182,7 +217,6 @@ static int make_row(void *context, int number, size_t *trial, RetexError *err)
     Table *table = context;
     Job *job = table->job;
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    char path[PATH_MAX];
     const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
     RetexEdit *lights = NULL;
@@ -192,12 +226,10 @@ static int make_row(void *context, int number, size_t *trial, RetexError *err)
     if (!code)
         code = kept_textures_load(&table->kept, job->set, specs, count, table->cli->threads, err);
     const Row row = {specs, count, table->kept.textures, lights};
-    if (!code && !trial)
-        code = batch_output(&job->batch, number, path, err);
     if (!code)
         code = trial
                    ? job_try_picture(table->cli, job, &row, texture_table_output(&job->batch.table, number), trial, err)
-                   : job_make_picture(table->cli, job, &row, path, began, err);
+                   : write_row(table, number, &row, began, err);
     retex_edit_close(&lights);
     return code;
 }
@@ -250,5 +282,10 @@ int job_run_table(const Cli *cli, Job *job)
     batch->inputs_known = 1;
     const int status = batch_run(batch, &job->write);
     kept_textures_close(&table.kept);
+    reuse_close(&table.reuse);
+    if (table.reuse.found)
+        cli_detail(cli, "textures that several pictures have: %" PRIu64 " rows of footprints filtered, %" PRIu64
+                        " found again, at most %.1f MB kept",
+                   table.reuse.made, table.reuse.found, (double)table.reuse.most_bytes / (1 << 20));
     return status;
 }

@@ -7,6 +7,7 @@
 
 #include "retexture/combine_kernel.h"
 #include "retexture/enlarge.h"
+#include "retexture/kept_samples.h"
 #include "retexture/polynomial_factors.h"
 #include "retexture/polynomial_finishes.h"
 #include "retexture/polynomial_groups.h"
@@ -122,7 +123,8 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
     const RetexCombineParams given = params ? *params : defaults;
-    *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart, .cross = given.cross};
+    *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart, .cross = given.cross,
+                           .kept = given.kept};
     p->columns = (RetexRowSpan){0, set->width};
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
@@ -133,6 +135,8 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
     if (!has_cross_terms(set))
         p->cross = ALL_CROSS_TERMS;
     int code = samples ? retex_samples_check(samples, set, err) : RETEX_OK;
+    for (int t = 0; p->kept && t < set->ntargets && !code; t++)
+        code = p->kept[t] ? retex_kept_samples_check(p->kept[t], set, t, err) : RETEX_OK;
     if (code)
         return code;
     find_edited(p, &given);

@@ -22,6 +22,7 @@ typedef struct RetexPolynomial {
     const RetexSet *set;
     const RetexSamples *samples;   /* or NULL */
     RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
+    RetexKeptSamples *const *kept; /* samples of these textures, by target, or NULL */
     int cross;
     int apart;                                 /* 1: one monomial for each term, with all its factors, and no
                                                  corrections; 2: with corrections; 0: terms are grouped */

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "retexture/kept_samples.h"
 #include "retexture/mixture_kernel.h"
 #include "retexture/polynomial_finishes.h"
 #include "retexture/sample_row.h"
@@ -151,25 +152,14 @@ static const RetexTexture *texture_of(const RetexTexture *texture, int finish)
     return texture && finish >= 0 ? texture->finishes->colors[finish] : texture;
 }
 
-int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor, int y,
-                                   RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err)
+/* Filters the texture at a row of the footprint. */
+static int filter_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor, const RetexTexture *texture,
+                      int y, RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err)
 {
     static const float clear[3 * RETEX_MAX_SIZE];
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[factor.index];
     const int finish = retex_quantity_finish(factor.quantity);
-    const RetexTexture *texture = texture_of(p->textures ? p->textures[f->target] : NULL, finish);
-    if (!texture && p->samples && retex_samples_have(p->samples, factor.index)) {
-        const int sample = finish < 0 ? factor.index
-                                      : retex_samples_find(p->samples, f->target, factor.index, finish);
-        if (sample < 0)
-            return retex_fail(err, RETEX_EFORMAT, "the samples lack footprint %d with finish %d", factor.index,
-                              finish);
-        *span = (RetexRowSpan){0, p->samples->images[factor.index].width};
-        return retex_row_reader_sample(reader, sample, y, row, err);
-    }
-    if (!texture)
-        return retex_row_reader_get_span(reader, f->albedo, y, row, span, err);
     RetexFootprintRow from;
     int code = retex_footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
@@ -185,6 +175,53 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     *row = buffer->values;
     *span = from.span;
     return RETEX_OK;
+}
+
+/* The same, or the row that is kept. */
+static int filter_or_find_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor,
+                              const RetexTexture *texture, int y, RetexRowBuffer *buffer, const float **row,
+                              RetexRowSpan *span, RetexError *err)
+{
+    const int finish = retex_quantity_finish(factor.quantity);
+    RetexKeptSamples *kept = p->kept ? p->kept[p->set->footprints[factor.index].target] : NULL;
+    if (!kept || (finish >= 0 && !retex_texture_is_opaque(texture))) /* what is clear depends on the finish shown */
+        return filter_row(p, reader, factor, texture, y, buffer, row, span, err);
+    const RetexKeptRow *found = retex_kept_samples_find(kept, factor.index, finish, y, p->columns);
+    if (!found) {
+        const int code = filter_row(p, reader, factor, texture, y, buffer, row, span, err);
+        if (!code)
+            retex_kept_samples_add(kept, factor.index, finish, y, p->columns, *row ? *span : (RetexRowSpan){0, 0},
+                                   *row);
+        return code;
+    }
+    *row = NULL;
+    if (retex_span_is_empty(found->span))
+        return RETEX_OK;
+    refill(buffer, found->span);
+    memcpy(buffer->values + 3 * (size_t)found->span.begin, found->colors,
+           3 * (size_t)(found->span.end - found->span.begin) * sizeof *found->colors);
+    *row = buffer->values;
+    *span = found->span;
+    return RETEX_OK;
+}
+
+int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor, int y,
+                                   RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err)
+{
+    const RetexFootprint *f = &p->set->footprints[factor.index];
+    const int finish = retex_quantity_finish(factor.quantity);
+    const RetexTexture *texture = texture_of(p->textures ? p->textures[f->target] : NULL, finish);
+    if (!texture && p->samples && retex_samples_have(p->samples, factor.index)) {
+        const int sample = finish < 0 ? factor.index
+                                      : retex_samples_find(p->samples, f->target, factor.index, finish);
+        if (sample < 0)
+            return retex_fail(err, RETEX_EFORMAT, "the samples lack footprint %d with finish %d", factor.index,
+                              finish);
+        *span = (RetexRowSpan){0, p->samples->images[factor.index].width};
+        return retex_row_reader_sample(reader, sample, y, row, err);
+    }
+    return texture ? filter_or_find_row(p, reader, factor, texture, y, buffer, row, span, err)
+                   : retex_row_reader_get_span(reader, f->albedo, y, row, span, err);
 }
 
 /* 1 if every share has one weight a pixel, not one for each colour. */

@@ -108,7 +108,8 @@ class RetexDevelop(ctypes.Structure):
 
 class RetexCombineParams(ctypes.Structure):
     _fields_ = ([("size", c_size_t)] + [(name, c_int) for name in ("cross", "y0", "y1", "x0", "x1")] +
-                [("parameters", POINTER(c_float)), ("terms_only", c_int), ("develop", POINTER(RetexDevelop))])
+                [("parameters", POINTER(c_float)), ("terms_only", c_int), ("develop", POINTER(RetexDevelop)),
+                 ("kept", c_void_p)])
 
 
 class RetexCut(ctypes.Structure):

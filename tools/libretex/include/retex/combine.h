@@ -2,6 +2,7 @@
 #ifndef RETEX_COMBINE_H
 #define RETEX_COMBINE_H
 
+#include <retex/budget.h>
 #include <retex/develop.h>
 #include <retex/picture.h>
 #include <retex/samples.h>
@@ -10,6 +11,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Samples of one texture on one target, kept from one picture to the next. */
+typedef struct RetexKeptSamples RetexKeptSamples;
 
 /* Begin with RETEX_COMBINE_INIT. */
 typedef struct RetexCombineParams {
@@ -22,10 +26,13 @@ typedef struct RetexCombineParams {
     int terms_only; /* 1: the sum of terms, though part 0 may be the result, see RETEX_ROLE_PICTURE; default 0 */
     const RetexDevelop *develop; /* borrowed: how the picture is developed; retex_estimate_error does not read it.
                                     Default NULL: not at all */
+    RetexKeptSamples *const *kept; /* RETEX_MAX_TARGETS of them, by target, NULL where none are kept: for the texture
+                                    that the call has there; no other call may use them meanwhile. Default NULL:
+                                    none at all */
 } RetexCombineParams;
 #define RETEX_COMBINE_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0, NULL                                                       \
+        sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0, NULL, NULL                                                 \
     }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
@@ -62,6 +69,23 @@ int retex_image_keep_rows(void *image, int y0, int y1, const float *rows, RetexE
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
+
+/* Keep samples of one texture on a target of the set, empty at first: each row of a footprint that a call with them in
+ * its params filters is kept if the budget has the memory, and found by later calls, whose pictures are the same to the
+ * bit. The caller has others for another texture, and for the same one in another placement. The set must stay as it is
+ * until they are closed. budget may be NULL: no limit. */
+int retex_kept_samples_create(RetexKeptSamples **kept, const RetexSet *set, int target, RetexBudget *budget,
+                              RetexError *err);
+void retex_kept_samples_close(RetexKeptSamples **kept); /* NULL and pointers to NULL are fine */
+
+typedef struct RetexKeptSamplesInfo {
+    size_t size;     /* sizeof(RetexKeptSamplesInfo): a later version may add members at the end */
+    uint64_t bytes;  /* what the budget is charged with */
+    uint64_t lacked; /* bytes of rows that were filtered and for which it had no memory */
+    uint64_t made, found; /* rows that were filtered, and that were found, so far */
+} RetexKeptSamplesInfo;
+/* Fill what info->size says that the caller knows. */
+void retex_kept_samples_get_info(const RetexKeptSamples *kept, RetexKeptSamplesInfo *info);
 
 /* The exposure, in stops, that brings the log-average luminance of the whole picture that retex_retexture makes, before
  * it is developed, to 0.18, the reflectance of a grey card: the geometric mean over its pixels that are not black, as
