@@ -27,6 +27,8 @@ static const CliOption options[] = {
     {"connections", 0, "N", "accept at most N connections; default 1000", 0},
     {"per-client", 0, "N", "accept at most N connections of one client, N/8 images; 0: any number; default 64", 0},
     {"trusted-proxy", 0, "ADDRESS", "clients of this proxy, or of a network a.b.c.d/BITS, are those it tells", 0},
+    {"key-file", 0, "FILE", "answer only URLs that are signed by one of the keys in FILE", 0},
+    {"sign", 0, "URL", "print URL signed by the first key of --key-file, and end", 0},
     {"min-rate", 0, "N", "close a connection that sends fewer than N bytes of an image a second; default 1000", 0},
     {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
     {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0},
@@ -50,6 +52,7 @@ typedef struct Job {
     int upload_count;
     double upload_age, upload_time;
     int queue, quality;
+    const char *sign; /* a URL to be signed; NULL: serve */
     HttpParams http;
 } Job;
 
@@ -97,6 +100,13 @@ static void check_base(const Cli *cli)
                 cli->value);
 }
 
+static void read_keys(const Cli *cli, Keys *keys)
+{
+    RetexError err = {0};
+    if (keys_read(keys, cli->value, &err))
+        cli_fail(cli, &err);
+}
+
 static void add_proxy(const Cli *cli, Trusted *proxies)
 {
     if (proxies->count == TRUSTED_MAX)
@@ -128,6 +138,10 @@ static void parse(Cli *cli, Job *job)
             job->upload_total = cli_size(cli, option);
         } else if (strcmp(option->name, "trusted-proxy") == 0) {
             add_proxy(cli, &job->http.proxies);
+        } else if (strcmp(option->name, "key-file") == 0) {
+            read_keys(cli, &job->http.keys);
+        } else if (strcmp(option->name, "sign") == 0) {
+            job->sign = cli->value;
         } else if (strcmp(option->name, "base-url") == 0) {
             check_base(cli);
             job->http.base = cli->value;
@@ -141,8 +155,44 @@ static void parse(Cli *cli, Job *job)
             parse_number(cli, option, job);
         }
     }
-    if (!job->folder)
+    if (job->sign && !job->http.keys.count)
+        cli_die(cli, "--sign needs a key: add --key-file FILE");
+    if (!job->folder && !job->sign)
         cli_die(cli, "no folder of rooms given");
+}
+
+/* ---- signatures ---- */
+
+/* Where the path of a URL begins, which may be all there is of it. */
+static const char *find_path(const Cli *cli, const char *url)
+{
+    const char *host = strncmp(url, "https://", 8) == 0 ? url + 8 : strncmp(url, "http://", 7) == 0 ? url + 7 : NULL;
+    const char *path = host ? strchr(host, '/') : url;
+    if (!path || *path != '/' || path == host)
+        cli_die(cli, "--sign: expected a URL such as https://example.org/v1/room/full.jpg, or its path, not '%s'", url);
+    return path;
+}
+
+/* Print what clients are to ask for. A URL that would be refused is not signed, nor one that browsers would change: its
+ * signature would not be that of what they send. */
+static void print_signed(const Cli *cli, const char *url, const Keys *keys)
+{
+    const char *path = find_path(cli, url), *odd = path;
+    char signature[SIGNATURE_LENGTH + 1], *text = NULL;
+    ServeRequest request;
+    RetexError err = {0};
+    while (*odd > ' ' && *odd < 0x7f && !strchr("\"#'<>[\\]^`{|}", *odd))
+        odd++;
+    if (*odd)
+        cli_die(cli, "--sign: in '%s' there are characters to be percent-encoded, the first one behind '%.*s'", url,
+                (int)(odd - url), url);
+    if (strcmp(path, "/v1/uploads") != 0 && serve_request_parse(&request, path, NULL, (1u << SERVE_FORMATS) - 1))
+        cli_die(cli, "--sign: %s", request.reason);
+    if (asprintf(&text, "%.*s/%s%s\n", (int)(path - url), url, keys_sign(keys, path, signature), path) < 0)
+        cli_die(cli, "not enough memory");
+    if (retex_file_write(cli->output ? cli->output : "-", text, strlen(text), &err))
+        cli_fail(cli, &err);
+    free(text);
 }
 
 /* ---- start ---- */
@@ -317,6 +367,10 @@ int main(int argc, char **argv)
     Site site = {0};
     Http *http = NULL;
     parse(&cli, &job);
+    if (job.sign) {
+        print_signed(&cli, job.sign, &job.http.keys);
+        return 0;
+    }
     watchdog_let_keep(1);
     keep_memory(retex_threads(cli.threads));
     allow_folders(&cli, &job, &folders);

@@ -5,65 +5,7 @@ import hashlib, http.client, json, os, re, select, shutil, signal, socket, struc
 sys.path.append(os.path.join(os.path.dirname(__file__), '..', 'serve'))
 sys.dont_write_bytecode = True
 import heads as heads_sent
-
-
-def start(*options, log='log'):
-    if os.path.exists('address'):
-        os.remove('address')
-    server = subprocess.Popen(['retex-serve', 'rooms', '--port', '0', '-o', 'address', '--threads', '2', *options],
-                              stderr=open(log, 'w'))
-    for _ in range(2000):
-        if os.path.exists('address'):
-            server.port = int(open('address').read().strip().rsplit(':', 1)[1])
-            return server
-        if server.poll() is not None:
-            break
-        time.sleep(.01)
-    sys.exit('no server: ' + open(log).read())
-
-
-def ask(server, path, method='GET', source='127.0.0.1', **headers):
-    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60, source_address=(source, 0))
-    connection.request(method, path, headers={name.replace('_', '-'): value for name, value in headers.items()})
-    answer = connection.getresponse()
-    answer.body = answer.read()
-    connection.close()
-    return answer
-
-
-def send_all(server, paths, headers=''):
-    """Sends requests without waiting for an answer, and returns their sockets."""
-    clients = []
-    for path in paths:
-        clients.append(socket.create_connection(('127.0.0.1', server.port), 60))
-        clients[-1].sendall(f'GET {path} HTTP/1.1\r\nHost: a\r\nConnection: close\r\n{headers}\r\n'.encode())
-    return clients
-
-
-def receive_all(clients):
-    """The answers to what send_all() has sent."""
-    answers = []
-    for client in clients:
-        with client:
-            answers.append(http.client.HTTPResponse(client))
-            answers[-1].begin()
-            answers[-1].body = answers[-1].read()
-    return answers
-
-
-def expect(what, got, wanted):
-    if got != wanted:
-        print(f'{what}: {got!r}, not {wanted!r}')
-
-
-def metric(server, name):
-    found = re.search('^retex_serve_' + re.escape(name) + ' (.*)$', ask(server, '/metrics').body.decode(), re.M)
-    return float(found[1]) if found else 0
-
-
-def combine(output, *options, told=None):
-    subprocess.run(['retex-combine', '-q', *options, '-o', output], check=True, stderr=told)
-    return open(output, 'rb').read()
+from serve_ask import ask, combine, ended, expect, metric, receive_all, run, send, send_all, wait_for
 
 
 # ---- pictures ----
@@ -460,40 +402,11 @@ def begin_upload(server, **headers):
     return client
 
 
-def ended(client):
-    """Whether the server has closed a connection."""
-    try:
-        return client.recv(100) == b''
-    except OSError:
-        return True
-
-
 def can_ask(server, path, source='127.0.0.1'):
     try:
         return ask(server, path, source=source).status == 200
     except OSError:
         return False
-
-
-def wait_for(condition, seconds=20, pause=.02):
-    until = time.time() + seconds
-    while not condition():
-        if time.time() > until:
-            return False
-        time.sleep(pause)
-    return True
-
-
-def send(server, body, path='/v1/uploads', method='POST', source='127.0.0.1', **headers):
-    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60, source_address=(source, 0))
-    try:
-        connection.request(method, path, body, {name.replace('_', '-'): value for name, value in headers.items()})
-    except BrokenPipeError:  # the server has answered, and closed, before it had all; its answer is there to be read
-        pass
-    answer = connection.getresponse()
-    answer.body = answer.read()
-    connection.close()
-    return answer
 
 
 def uploads(server):
@@ -907,16 +820,4 @@ OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-c
            'presets': ['--presets', 'presets'], 'texts': ['--threads', '1', '--per-client', '0'], 'refused': ['--timeout', '1'],
            'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
-for name in sys.argv[1:]:
-    server = start('--textures', 'textures', *OPTIONS.get(name, []))
-    try:
-        globals()[name](server)
-        print(name)
-    finally:
-        if server.poll() is None:
-            server.terminate()
-        try:
-            expect('exit status', server.wait(60), 0)
-        except subprocess.TimeoutExpired:
-            server.kill()
-            sys.exit('the server does not end')
+run(globals(), OPTIONS, '--textures', 'textures')

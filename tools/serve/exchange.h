@@ -36,6 +36,7 @@ typedef struct Exchange {
     Http *http;
     struct MHD_Connection *connection;
     char *url;           /* as it came */
+    const char *path;    /* the same without its signature; NULL: it is not signed, but has to be */
     const char *url_end; /* behind it, where it came */
     char method[16];
     Address client;
@@ -58,7 +59,7 @@ const char *exchange_header(const Exchange *exchange, const char *name);
 /* Whether it is the URL to which images are sent. */
 int exchange_is_of_uploads(const Exchange *exchange);
 /* Beginning of the server's own URLs in answers of IIIF; "" elsewhere. */
-const char *exchange_base(const Exchange *exchange, char text[256]);
+const char *exchange_base(const Exchange *exchange, char text[SERVE_BASE_MAX]);
 
 /* Send the exchange's answer, or of a picture the part that is asked for. */
 enum MHD_Result exchange_send(Exchange *exchange);

@@ -45,7 +45,7 @@ static Answer *health_answer(void)
 static Answer *redirect_answer(const Exchange *exchange)
 {
     static const char info[] = "/info.json";
-    char base[256], url[IIIF_URL_MAX];
+    char base[SERVE_BASE_MAX], url[IIIF_URL_MAX];
     iiif_id(url, &exchange->request, exchange_base(exchange, base));
     char *location = malloc(strlen(url) + sizeof info);
     Answer *answer = location ? answer_error(303, "see info.json") : NULL;
@@ -117,7 +117,7 @@ static int wait_for_work(Exchange *exchange, const char *key, const char *base)
 static int begin_work(Exchange *exchange)
 {
     const Site *site = exchange->http->params.site;
-    char key[SITE_KEY_MAX], base_text[256], etag[ETAG_SIZE];
+    char key[SITE_KEY_MAX], base_text[SERVE_BASE_MAX], etag[ETAG_SIZE];
     const char *base = exchange_base(exchange, base_text);
     exchange->answer = site_key(site, &exchange->request, base, key);
     if (exchange->answer)
@@ -221,6 +221,8 @@ static Answer *refuse_headers(Exchange *exchange, const char *method, const char
     Answer *answer = refuse_head(exchange, method, version, &fields);
     if (!answer)
         answer = refuse_client(exchange, fields.forwarded);
+    if (!answer && !exchange->path)
+        answer = answer_error(403, "the URL is not signed by a key of this server");
     return answer ? answer : refuse_request(exchange);
 }
 
@@ -239,10 +241,10 @@ static int parse(Exchange *exchange)
 {
     ServeRequest *request = &exchange->request;
     const char *accept = exchange_header(exchange, "Accept");
-    const int status = serve_request_parse(request, exchange->url, accept, (1u << SERVE_FORMATS) - 1);
+    const int status = serve_request_parse(request, exchange->path, accept, (1u << SERVE_FORMATS) - 1);
     if (status || request->format == SERVE_JPEG || request->format == SERVE_PNG)
         return status;
-    return serve_request_parse(request, exchange->url, accept, picture_formats());
+    return serve_request_parse(request, exchange->path, accept, picture_formats());
 }
 
 static int begin(Exchange *exchange)
@@ -284,13 +286,15 @@ static void *begin_exchange(void *context, const char *url, struct MHD_Connectio
 {
     Http *http = context;
     Exchange *exchange = calloc(1, sizeof *exchange);
-    if (exchange && !(exchange->url = strndup(url, SERVE_URL_MAX + 1))) { /* more is refused, whatever it is */
+    /* more is refused, whatever it is */
+    if (exchange && !(exchange->url = strndup(url, SERVE_URL_MAX + 1 + 1 + SIGNATURE_LENGTH))) {
         free(exchange);
         exchange = NULL;
     }
     if (!exchange)
         return NULL;
     exchange->http = http;
+    exchange->path = strcmp(url, "/health") == 0 ? exchange->url : keys_check(&http->params.keys, exchange->url);
     exchange->connection = from;
     const Connection *connection = exchange_connection(exchange);
     exchange->client = connection ? connection->address : (Address){{0}};
@@ -351,7 +355,7 @@ static void end_exchange(void *context, struct MHD_Connection *unused, void **st
                                            : exchange->answer->reason;
     char client[ADDRESS_TEXT];
     const LogLine line = {.method = exchange->method,
-                          .path = exchange->url,
+                          .path = exchange->path ? exchange->path : exchange->url,
                           .client = address_text(&exchange->client, client),
                           .status = exchange->status,
                           .bytes = is_complete ? exchange->bytes : 0,

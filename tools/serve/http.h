@@ -4,6 +4,7 @@
 #define RETEX_SERVE_HTTP_H
 
 #include "address.h"
+#include "keys.h"
 #include "metrics.h"
 #include "site.h"
 
@@ -13,6 +14,7 @@ typedef struct HttpParams {
     int connections;     /* at most */
     int per_client;      /* connections of one client, at most; 0 = any number, of uploads too */
     Trusted proxies;     /* whose clients are counted instead of themselves */
+    Keys keys;           /* by one of which URLs must be signed; none: they are not */
     double min_rate;     /* bytes a second of an image, at least */
     double timeout;      /* seconds within which a request must arrive, and after which a silent connection is closed */
     double deadline;     /* seconds within which a picture must be made */

@@ -23,7 +23,7 @@ const char *exchange_header(const Exchange *exchange, const char *name)
 
 int exchange_is_of_uploads(const Exchange *exchange)
 {
-    return strcmp(exchange->url, "/v1/uploads") == 0;
+    return exchange->path && strcmp(exchange->path, "/v1/uploads") == 0;
 }
 
 /* ---- the server's URL ---- */
@@ -35,7 +35,7 @@ static int is_iiif(const Exchange *exchange)
 }
 
 /* "http://127.0.0.1:8080": where the client has reached the server. */
-static const char *own_base(const Exchange *exchange, char text[256])
+static void own_base(const Exchange *exchange, char text[SERVE_BASE_MAX])
 {
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(exchange->connection, MHD_CONNECTION_INFO_CONNECTION_FD);
@@ -46,24 +46,36 @@ static const char *own_base(const Exchange *exchange, char text[256])
     text[0] = '\0';
     if (!info || getsockname(info->connect_fd, (struct sockaddr *)&bound, &size) != 0 ||
         address_of_socket(&address, (struct sockaddr *)&bound))
-        return text;
+        return;
     address_text(&address, own);
-    snprintf(text, 256, strchr(own, ':') ? "http://[%s]:%d" : "http://%s:%d", own, exchange->http->port);
-    return text;
+    snprintf(text, SERVE_BASE_MAX, strchr(own, ':') ? "http://[%s]:%d" : "http://%s:%d", own, exchange->http->port);
+}
+
+/* The signature of the image that is asked for, which its client has, but perhaps of another spelling. */
+static void add_signature(const Exchange *exchange, char text[SERVE_BASE_MAX])
+{
+    char id[IIIF_URL_MAX], signature[SIGNATURE_LENGTH + 1];
+    const size_t used = strlen(text);
+    keys_sign(&exchange->http->params.keys, iiif_id(id, &exchange->request, ""), signature);
+    snprintf(text + used, SERVE_BASE_MAX - used, "/%s", signature);
 }
 
 /* What a client says of the server stands in no answer, which a shared cache might give to another one. */
-const char *exchange_base(const Exchange *exchange, char text[256])
+const char *exchange_base(const Exchange *exchange, char text[SERVE_BASE_MAX])
 {
     const Connection *connection = exchange_connection(exchange);
     text[0] = '\0';
     if (!is_iiif(exchange))
         return text;
     if (exchange->http->params.base)
-        return exchange->http->params.base;
-    if (connection && connection->is_proxy)
+        snprintf(text, SERVE_BASE_MAX, "%s", exchange->http->params.base);
+    else if (connection && connection->is_proxy)
         header_base(text, 256, exchange_header(exchange, "Host"), exchange_header(exchange, "X-Forwarded-Proto"));
-    return text[0] ? text : own_base(exchange, text);
+    if (!text[0])
+        own_base(exchange, text);
+    if (exchange->http->params.keys.count)
+        add_signature(exchange, text);
+    return text;
 }
 
 /* ---- headers ---- */
@@ -103,7 +115,7 @@ static void add_iiif_link(struct MHD_Response *response, const Exchange *exchang
     const Answer *answer = exchange->answer;
     ServeRequest request = exchange->request;
     RetexCut place;
-    char base[256], url[IIIF_URL_MAX], text[IIIF_URL_MAX + sizeof level + 32];
+    char base[SERVE_BASE_MAX], url[IIIF_URL_MAX], text[IIIF_URL_MAX + sizeof level + 32];
     if (request.route != SERVE_IIIF_IMAGE || !answer->width ||
         iiif_place(&request, answer->width, answer->height, &place))
         return;

@@ -23,6 +23,7 @@
 enum {
     SERVE_URL_MAX = 4096,      /* bytes of a URL's path and query */
     SERVE_NAME_MAX = 127,      /* bytes of the name of a room, target or texture */
+    SERVE_BASE_MAX = 320,      /* bytes of the beginning of the server's own URLs, with a signature */
     SERVE_THUMBNAIL_SIDE = 256 /* a thumbnail fits into a square of these pixels */
 };
 

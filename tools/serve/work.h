@@ -20,7 +20,7 @@ typedef struct Waiter {
 /* What is to be made: the request, with the key that two requests for the same thing have in common. */
 typedef struct WorkItem {
     ServeRequest request;
-    char base[256];  /* beginning of the server's own URLs */
+    char base[SERVE_BASE_MAX]; /* beginning of the server's own URLs */
     double deadline; /* of retex_clock_seconds */
     const char *key;
     const void *body; /* of an upload: the waiter's, until done is called */
