@@ -18,6 +18,7 @@ static void begin(void)
     static const char *const seeds[] = {
         "/v1/room/Floor=oak;Wall=rgb(.2,.3,.4)/800x600.jpg?Floor.scale=2,1&Floor.rotate=30&crop=1,2,30,40&quality=90\n",
         "/v1/room/Floor=a%20b.png;Floor.wrap=mirror,clamp;Floor.flip=uv/x600\nimage/avif,image/webp;q=0.8,*/*;q=0.1",
+        "/v1/textures/a%20b.png/thumbnail?quality=80\nimage/webp",
         "/v1/room/full.png?Floor.colorspace=Linear%20Rec.709\nimage/*",
         "/v1/room/Floor=a;Floor.width=60cm;Floor.grout=4mm;Floor.tiles=b,c;Floor.vary=turn,3/x90.jpg?Floor.hue=30\n",
         "/v1/room/over:Floor=logo;over:Floor.at=1,2;over:Floor.width=.5;finish:Wall=satin/full.jpg\n",
@@ -130,7 +131,7 @@ static int run(const unsigned char *bytes, size_t size)
     free(url);
     if (status)
         return 0;
-    if (request.route >= SERVE_ROOM)
+    if (request.route >= SERVE_ROOM && request.route != SERVE_TEXTURE)
         check_name(request.room);
     check_plain(request.edits);
     for (int i = 0; i < request.nspecs; i++) {
@@ -146,7 +147,8 @@ static int run(const unsigned char *bytes, size_t size)
         if (spec->finish[0])
             check_name(spec->finish);
     }
-    if (request.route == SERVE_PICTURE || request.route == SERVE_THUMBNAIL || request.route == SERVE_IIIF_IMAGE)
+    if (request.route == SERVE_PICTURE || request.route == SERVE_THUMBNAIL || request.route == SERVE_TEXTURE ||
+        request.route == SERVE_IIIF_IMAGE)
         check_place(&request);
     if (request.route == SERVE_IIIF_INFO)
         check_info(&request);

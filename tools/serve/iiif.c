@@ -201,6 +201,8 @@ static int place_size(ServeRequest *request, RetexCut *place)
         } else {
             width = scaled(region_width, height, region_height);
         }
+        width = width ? width : 1; /* of what is far longer than wide */
+        height = height ? height : 1;
         break;
     case SERVE_SIZE_FILL:
         return fill_size(request, place);

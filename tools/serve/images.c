@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/image_file.h>
+
 #include "decoding.h"
 #include "kept.h"
 #include "names.h"
@@ -251,6 +253,11 @@ static int is_of_stranger(const Images *images, const RetexTextureSpec *spec)
            (images_has_map(spec) && is_upload(images, spec->finish));
 }
 
+int images_is_upload(const Images *images, const RetexTextureSpec *spec)
+{
+    return is_upload(images, spec->image);
+}
+
 int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
 {
     FileId ids[RETEX_TEXTURE_FILES];
@@ -422,6 +429,36 @@ int images_find_contents(const Images *images, const RetexTextureSpec *spec, Con
             return 0;
     }
     return 1;
+}
+
+int images_read(const Images *images, const RetexTextureSpec *spec, double deadline, RetexImage *image,
+                Content *content, RetexError *err)
+{
+    const int is_strange = is_of_stranger(images, spec);
+    RetexAccess access = *images->params.access;
+    ContentReading reading = {.contents = images->contents, .most = 1};
+    RetexReadParams params = RETEX_READ_INIT;
+    RetexBudget *budget = NULL;
+    RetexTextureSpec own = *spec;
+    char *file = NULL;
+    access.opened = content_read;
+    access.context = &reading;
+    own.access = images->params.access;
+    params.access = &access;
+    int code = retex_texture_file(&file, &own, RETEX_TEXTURE_FILE_IMAGE, err);
+    if (!code)
+        code = decoding_budget(&budget, images->params.budget, deadline,
+                               is_strange ? images->params.decoding : INFINITY, err);
+    params.budget = budget;
+    if (!code)
+        code = retex_image_read(image, file, &params, is_strange ? 1 : images->params.threads, err);
+    const int changed = reading.count ? content_end(&reading, code ? NULL : err) : 0;
+    if (!code && changed)
+        retex_image_free(image);
+    *content = reading.read[0];
+    retex_budget_close(&budget);
+    free(file);
+    return code ? code : changed;
 }
 
 int images_place(const Images *images, OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec,

@@ -46,6 +46,11 @@ int images_place(const Images *images, OpenImage *image, const RetexSet *set, co
 const Content *images_contents(const OpenImage *image);
 /* The same, if they are known without reading: 1, or 0. */
 int images_find_contents(const Images *images, const RetexTextureSpec *spec, Content contents[RETEX_TEXTURE_FILES]);
+/* The colours of its image alone, as they are in the file, and the file's content: R,G,B,A of an unallocated image. */
+int images_read(const Images *images, const RetexTextureSpec *spec, double deadline, RetexImage *image,
+                Content *content, RetexError *err);
+/* Whether its image is an upload. */
+int images_is_upload(const Images *images, const RetexTextureSpec *spec);
 /* Whether an upload may have to be decoded for it. The finishes are not needed. */
 int images_is_new_upload(Images *images, const RetexTextureSpec *spec);
 void images_return(Images *images, OpenImage *image); /* NULL is fine */

@@ -5,8 +5,8 @@ static const int statuses[METRICS_STATUSES - 1] = {200, 201, 204, 206, 303, 304,
                                                    412, 413, 414, 415, 416, 431, 500, 501, 503, 507};
 static const double limits[METRICS_BUCKETS] = {.001, .0025, .005, .01, .025, .05, .1, .25, .5, 1, 2.5, 5, 10};
 static const char *const routes[METRICS_ROUTES] = {"health",     "metrics",   "rooms",     "room",
-                                                   "picture",    "thumbnail", "iiif_base", "iiif_info",
-                                                   "iiif_image", "upload",    "none"};
+                                                   "picture",    "thumbnail", "texture",   "iiif_base",
+                                                   "iiif_info",  "iiif_image", "upload",   "none"};
 
 const char *cache_use_name(CacheUse use)
 {

@@ -297,6 +297,23 @@ static int parse_picture(ServeRequest *request, RetexEdit *edit, char *name, cha
                                               : serve_format_set(request, dot + 1, formats);
 }
 
+/* The name of a texture, and what follows it. */
+static int parse_texture(ServeRequest *request, RetexEdit *edit, const char *texture, char *name, char *query,
+                         const char *accept, unsigned formats)
+{
+    if (parse_picture(request, edit, name, query, accept, formats))
+        return request->status;
+    if (request->route != SERVE_THUMBNAIL)
+        return serve_refuse(request, 404, "of a texture there is thumbnail alone, as in thumbnail.jpg");
+    if (request->edits[0] || request->preset[0] || request->region.kind != SERVE_REGION_FULL)
+        return serve_refuse(request, 400, "a texture's thumbnail has no option but quality");
+    request->route = SERVE_TEXTURE;
+    request->nspecs = 1;
+    request->specs[0] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+    strcpy(request->specs[0].image, texture);
+    return 0;
+}
+
 /* ---- paths ---- */
 
 enum { PARTS_MAX = 7 };
@@ -341,6 +358,8 @@ static int parse_path(ServeRequest *request, RetexEdit *edit, char *parts[], int
     } else if (count == 2 && strcmp(parts[0], "v1") == 0) {
         request->route = SERVE_ROOM;
         return set_room(request, parts[1]);
+    } else if (is_picture && count == 4 && strcmp(parts[1], "textures") == 0 && serve_name_is_valid(parts[2])) {
+        return parse_texture(request, edit, parts[2], parts[3], query, accept, formats);
     } else if (is_picture && count <= 4) {
         if (set_room(request, parts[1]) || (count == 4 && add_edits(request, edit, parts[2])))
             return request->status;

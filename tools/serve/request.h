@@ -4,6 +4,8 @@
  *     /v1                                               rooms and textures
  *     /v1/ROOM                                          a room: its size, targets
  *     /v1/ROOM[/EDITS]/SIZE[.EXTENSION][?QUERY]         a picture
+ *     /v1/textures/NAME/thumbnail[.EXTENSION][?quality=N]
+ *                                                       a texture, which no EDITS look like
  *     /iiif/3/ID   /iiif/3/ID/info.json                 IIIF Image API 3.0; ID = ROOM[;EDITS]
  *     /iiif/3/ID/REGION/SIZE/ROTATION/QUALITY.FORMAT
  *
@@ -34,6 +36,7 @@ typedef enum ServeRoute {
     SERVE_ROOM,
     SERVE_PICTURE,
     SERVE_THUMBNAIL, /* a small picture, for lists; in all else as SERVE_PICTURE */
+    SERVE_TEXTURE,   /* a small picture of a texture, the only one of `specs`, of no target and no room */
     SERVE_IIIF_BASE, /* redirect to its info.json */
     SERVE_IIIF_INFO,
     SERVE_IIIF_IMAGE,
@@ -85,7 +88,7 @@ typedef struct ServeRequest {
     char edits[SERVE_URL_MAX]; /* the same as the canonical text of an edit, with all else that it says */
     char preset[SERVE_NAME_MAX + 1]; /* the name of one, or "" */
 
-    /* pictures, thumbnails and images of IIIF */
+    /* pictures, thumbnails, textures and images of IIIF */
     ServeRegion region;
     ServeSize size;
     int quarter_turns; /* 0..3, clockwise, after scaling */

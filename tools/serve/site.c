@@ -12,6 +12,7 @@
 #include "hash.h"
 #include "json_text.h"
 #include "picture.h"
+#include "thumbnail.h"
 
 /* ---- what a request is of ---- */
 
@@ -35,6 +36,12 @@ static int is_picture(ServeRoute route)
     return route == SERVE_PICTURE || route == SERVE_THUMBNAIL || route == SERVE_IIIF_IMAGE;
 }
 
+/* Whether the answer is one of pixels, which is kept. */
+static int has_pixels(ServeRoute route)
+{
+    return is_picture(route) || route == SERVE_TEXTURE;
+}
+
 SiteWork site_work_of(const Site *site, const ServeRequest *request)
 {
     if (request->route == SERVE_UPLOAD)
@@ -42,7 +49,9 @@ SiteWork site_work_of(const Site *site, const ServeRequest *request)
     for (int i = 0; is_picture(request->route) && i < request->nspecs; i++)
         if (images_is_new_upload(site->images, &request->specs[i]))
             return SITE_UPLOAD;
-    return is_picture(request->route) ? SITE_PICTURE : SITE_TEXT;
+    if (request->route == SERVE_TEXTURE && images_is_upload(site->images, &request->specs[0]))
+        return SITE_UPLOAD;
+    return has_pixels(request->route) ? SITE_PICTURE : SITE_TEXT;
 }
 
 static int quality_of(const Site *site, const ServeRequest *request)
@@ -59,11 +68,14 @@ typedef struct SiteFiles {
 static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *files)
 {
     char path[PATH_MAX], meant[RETEX_MEANT_SIZE];
-    if (rooms_find(site->rooms, request->room, path, &files->room))
+    if (request->route != SERVE_TEXTURE && rooms_find(site->rooms, request->room, path, &files->room))
         return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
     for (int i = 0; i < request->nspecs; i++) {
         RetexTextureSpec *spec = &request->specs[i];
         const int missing = images_find(site->images, spec, files->images[i]);
+        if (request->route == SERVE_TEXTURE) /* of which the image alone is read */
+            memset(&files->images[i][RETEX_TEXTURE_FILE_IMAGE + 1], 0,
+                   sizeof files->images[i] - sizeof files->images[i][RETEX_TEXTURE_FILE_IMAGE]);
         if (missing == 1 + RETEX_TEXTURE_FILE_FINISH && images_has_map(spec))
             return answer_error(404, "%s.%s: there is no texture '%s'; /v1 lists them", spec->target,
                                 spec->normal ? "normal" : "finish", spec->finish);
@@ -73,6 +85,8 @@ static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *fi
         if (missing > RETEX_TEXTURE_FILE_TILES)
             return answer_error(404, "%s.tiles: there is no texture '%s'; /v1 lists them", spec->target,
                                 spec->tiles[missing - 1 - RETEX_TEXTURE_FILE_TILES]);
+        if (missing && request->route == SERVE_TEXTURE)
+            return answer_error(404, "there is no texture '%s'; /v1 lists them", spec->image);
         if (missing)
             return answer_error(404, "%s: there is no texture '%s'; /v1 lists them%s", spec->target, spec->image,
                                 retex_color_meant(spec->image, meant));
@@ -90,7 +104,7 @@ static void write_key(const Site *site, const ServeRequest *request, const char 
     for (int i = 0; i < request->nspecs; i++)
         for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
             append(&key, "\n%s", file_id_text(&files->images[i][number], id_text));
-    if (is_picture(request->route)) {
+    if (has_pixels(request->route)) {
         const ServeRegion *r = &request->region;
         const ServeSize *s = &request->size;
         append(&key, "\n%d %.17g %.17g %.17g %.17g\n%d %d %d %.17g %d\n%d %d %d %d %d", r->kind, r->x, r->y, r->width,
@@ -138,12 +152,18 @@ typedef struct SiteContents {
     Content images[RETEX_MAX_TARGETS][RETEX_TEXTURE_FILES];
 } SiteContents;
 
+static void write_etag(const char *text, char etag[ETAG_SIZE])
+{
+    static const Hash128 begin = HASH128_BEGIN;
+    const Hash128 hash = hash128_text(begin, text);
+    snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
+}
+
 /* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and
  * of the files of textures, the edits, and the pixels. It is the same on all machines that have the same files. */
 static void make_etag(const Site *site, const ServeRequest *request, const RetexCut *place, const Room *room,
                       const SiteContents *contents, char etag[ETAG_SIZE])
 {
-    static const Hash128 begin = HASH128_BEGIN;
     const char *config = getenv("OCIO");
     char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * RETEX_TEXTURE_FILES * 64 + 1024], digest[2 * CONTENT_DIGEST + 1];
     Text all = {text, 0, sizeof text};
@@ -155,8 +175,7 @@ static void make_etag(const Site *site, const ServeRequest *request, const Retex
     append(&all, "\n%d %d %d %d %d %d %d %d %d %d %d", place->x, place->y, place->width, place->height,
            place->scaled_width, place->scaled_height, request->quarter_turns, request->mirror, request->gray,
            request->format, quality_of(site, request));
-    const Hash128 hash = hash128_text(begin, text);
-    snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
+    write_etag(text, etag);
 }
 
 static int find_place(ServeRequest *request, const Room *room, RetexCut *place)
@@ -316,12 +335,11 @@ static int make_file(const Site *site, const ServeRequest *request, PicturePlan 
 }
 
 /* Whether the files that were read are those of the key, and no change of them could be missed. */
-static int is_of_key(const Site *site, const WorkItem *item, const Room *room,
-                     const SiteContents *contents)
+static int is_of_key(const Site *site, const WorkItem *item, const Content *room, const SiteContents *contents)
 {
-    SiteFiles files = {.room = room->content.id};
+    SiteFiles files = {.room = room->id};
     char key[SITE_KEY_MAX];
-    int are_settled = room->content.is_settled;
+    int are_settled = room->is_settled;
     for (int i = 0; i < item->request.nspecs; i++)
         for (int number = 0; number < RETEX_TEXTURE_FILES; number++) {
             files.images[i][number] = contents->images[i][number].id;
@@ -353,7 +371,7 @@ static Answer *make_picture_of(const Site *site, const WorkItem *item, const Roo
     const RetexSetInfo info = retex_set_info(room->set);
     answer->width = info.width;
     answer->height = info.height;
-    if (is_of_key(site, item, room, &contents))
+    if (is_of_key(site, item, &room->content, &contents))
         cache_add(site->pictures, item->key, answer);
     return answer;
 }
@@ -388,6 +406,49 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                           : make_picture_of(site, item, room, used, &place, &plan, &textures, nthreads);
     return_images(site, &textures);
     rooms_return(site->rooms, small);
+    return answer;
+}
+
+/* ---- thumbnails of textures ---- */
+
+/* The tag says what it is made of, as that of a picture of a room; its size follows from the file. */
+static void make_texture_etag(const Site *site, const ServeRequest *request, const Content *content,
+                              char etag[ETAG_SIZE])
+{
+    const char *config = getenv("OCIO");
+    char text[sizeof RETEX_VERSION + 512], digest[2 * CONTENT_DIGEST + 1];
+    snprintf(text, sizeof text, RETEX_VERSION "\ntexture\n%.256s\n%s\n%d %d", config ? config : "",
+             content_text(content, digest), request->format, quality_of(site, request));
+    write_etag(text, etag);
+}
+
+static Answer *make_texture(const Site *site, const WorkItem *item, int nthreads)
+{
+    ServeRequest request = item->request;
+    SiteContents contents = {0};
+    Content *content = &contents.images[0][RETEX_TEXTURE_FILE_IMAGE], none = {.is_settled = 1};
+    RetexImage image = {0};
+    RetexCut place;
+    RetexError err = {0};
+    void *data = NULL;
+    size_t bytes = 0;
+    for (int number = RETEX_TEXTURE_FILE_IMAGE + 1; number < RETEX_TEXTURE_FILES; number++)
+        contents.images[0][number] = none;
+    if (images_read(site->images, &request.specs[0], item->deadline, &image, content, &err))
+        return answer_of_error(&err);
+    if (iiif_place(&request, image.width, image.height, &place)) {
+        retex_image_free(&image);
+        return answer_error(request.status, "%s", request.reason);
+    }
+    const int code = thumbnail_make(&image, &place, request.format, quality_of(site, &request), nthreads, &data, &bytes,
+                                    &err);
+    retex_image_free(&image);
+    Answer *answer = code ? answer_of_error(&err) : answer_new(200, serve_format_type(request.format), data, bytes);
+    if (!code && answer) {
+        make_texture_etag(site, &request, content, answer->etag);
+        if (is_of_key(site, item, &none, &contents))
+            cache_add(site->pictures, item->key, answer);
+    }
     return answer;
 }
 
@@ -504,6 +565,8 @@ Answer *site_make(void *context, const WorkItem *item, int nthreads)
     RetexError err = {0};
     if (item->request.route == SERVE_UPLOAD)
         return uploads_keep(site->uploads, item->hash, item->body, item->bytes, item->deadline);
+    if (item->request.route == SERVE_TEXTURE)
+        return make_texture(site, item, nthreads);
     if (item->request.route != SERVE_ROOMS && rooms_take(site->rooms, item->request.room, &room, &err))
         return answer_of_error(&err);
     Answer *answer =
