@@ -33,7 +33,7 @@ $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/confine.o
 $(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/%.o,space room room_view)
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.
-SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif)
+SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif hints)
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
 $(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/serve/%.o,address clients head peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \

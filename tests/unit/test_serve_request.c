@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "json_text.h"
+#include "serve/hints.h"
 #include "serve/request.h"
 
 #define ALL ((1u << SERVE_FORMATS) - 1)
@@ -326,11 +327,43 @@ static void test_accept(void **state)
     assert_int_equal(serve_request_parse(&request, "/v1/room/8x.avif", NULL, 1u << SERVE_JPEG), 400);
 }
 
+static void test_hints(void **state)
+{
+    static const struct {
+        const char *width, *viewport_width, *dpr;
+        int wanted;
+    } cases[] = {
+        {NULL, NULL, NULL, 0},     {"1", NULL, NULL, 320},        {"320", NULL, NULL, 320},    {"321", NULL, NULL, 480},
+        {"640", "9", "3", 640},    {"99999", NULL, NULL, 3840},   {NULL, "390", "3", 1280},    {NULL, "390", NULL, 480},
+        {NULL, "390", "2.5", 1280}, {NULL, "400", "0.5", 320},    {NULL, NULL, "3", 0},        {"0", "390", "1", 480},
+        {"-5", NULL, NULL, 0},     {"640px", NULL, NULL, 0},      {" 640 ", NULL, NULL, 640},  {"", "", "", 0},
+        {"1e3", NULL, NULL, 0},    {".5", NULL, NULL, 0},         {"639.5", NULL, NULL, 640},  {"640.5", NULL, NULL, 960},
+        {"nan", "inf", "1", 0},    {NULL, "390", "x", 480},       {"1,2", NULL, NULL, 0},
+        {"9999999999999", NULL, NULL, 0}, {"99999999999", NULL, NULL, 3840}, {NULL, "999999999999", "999999999999", 3840},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const Hints hints = {cases[i].width, cases[i].viewport_width, cases[i].dpr};
+        if (hints_width(&hints) != cases[i].wanted)
+            fail_msg("%s, %s, %s: %d, not %d", hints.width, hints.viewport_width, hints.dpr, hints_width(&hints),
+                     cases[i].wanted);
+    }
+    const Hints phone = {NULL, "390", "3"};
+    accept_url("/v1/room/auto.jpg?quality=80");
+    assert_int_equal(request.size.kind, SERVE_SIZE_MAX);
+    hints_apply(&request, &phone);
+    assert_int_equal(request.size.kind, SERVE_SIZE_WITHIN);
+    assert_int_equal(request.size.width, 1280);
+    accept_url("/v1/room/full.jpg");
+    hints_apply(&request, &phone);
+    assert_int_equal(request.size.kind, SERVE_SIZE_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_routes),   cmocka_unit_test(test_textures), cmocka_unit_test(test_encodings),
-        cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept),   cmocka_unit_test(test_sizes_are_bounded),
+        cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept), cmocka_unit_test(test_hints),   cmocka_unit_test(test_sizes_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 #include "exchange.h"
 #include "head.h"
 #include "headers.h"
+#include "hints.h"
 #include "iiif.h"
 #include "listen.h"
 #include "log.h"
@@ -247,6 +248,14 @@ static int parse(Exchange *exchange)
     return serve_request_parse(request, exchange->path, accept, picture_formats());
 }
 
+/* A header by its new name, or by the old one. */
+static const char *hint(const Exchange *exchange, const char *name)
+{
+    static const char prefix[] = "Sec-CH-";
+    const char *value = exchange_header(exchange, name);
+    return value ? value : exchange_header(exchange, name + sizeof prefix - 1);
+}
+
 static int begin(Exchange *exchange)
 {
     Http *http = exchange->http;
@@ -255,6 +264,9 @@ static int begin(Exchange *exchange)
         exchange->answer = answer_error(request->status, "%s", request->reason);
         return 0;
     }
+    hints_apply(request, &(Hints){.width = hint(exchange, "Sec-CH-Width"),
+                                  .viewport_width = hint(exchange, "Sec-CH-Viewport-Width"),
+                                  .dpr = hint(exchange, "Sec-CH-DPR")});
     switch (request->route) {
     case SERVE_HEALTH:
         exchange->answer = atomic_load(&http->is_refusing) ? answer_error(503, "the server ends") : health_answer();

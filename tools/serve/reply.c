@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "headers.h"
+#include "hints.h"
 #include "iiif.h"
 
 enum { LINK_MAX_BYTES = 8 << 10, RETRY_SECONDS = 2 };
@@ -95,7 +96,9 @@ static void add_cache_headers(struct MHD_Response *response, const Exchange *exc
     const Http *http = exchange->http;
     char text[64];
     if (status == 200 || status == 206 || status == 304) {
-        snprintf(text, sizeof text, "public, max-age=%d", http->params.max_age);
+        /* a shared cache would keep a picture for each width that a browser tells */
+        snprintf(text, sizeof text, "%s, max-age=%d", exchange->request.size_by_hints ? "private" : "public",
+                 http->params.max_age);
         add_header(response, "Cache-Control",
                    exchange->request.route == SERVE_HEALTH || exchange->request.route == SERVE_METRICS ? "no-store"
                                                                                                        : text);
@@ -104,6 +107,10 @@ static void add_cache_headers(struct MHD_Response *response, const Exchange *exc
     }
     if (exchange->request.format_by_accept || exchange->request.route == SERVE_IIIF_INFO)
         add_header(response, "Vary", "Accept");
+    if (exchange->request.size_by_hints) {
+        add_header(response, "Vary", HINTS_ACCEPT);
+        add_header(response, "Accept-CH", HINTS_ACCEPT);
+    }
     if (exchange->answer->etag[0])
         add_header(response, "ETag", exchange->answer->etag);
 }

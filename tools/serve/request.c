@@ -257,12 +257,13 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
     return 0;
 }
 
-/* WIDTHxHEIGHT, one of them may be missing; full; thumbnail. */
+/* WIDTHxHEIGHT, one of them may be missing; full; auto; thumbnail. */
 static int set_size(ServeRequest *request, char *text)
 {
     ServeSize *size = &request->size;
     request->route = SERVE_PICTURE;
-    if (strcmp(text, "full") == 0) {
+    if (strcmp(text, "full") == 0 || strcmp(text, "auto") == 0) {
+        request->size_by_hints = *text == 'a';
         size->kind = SERVE_SIZE_MAX;
         return 0;
     }
@@ -276,7 +277,7 @@ static int set_size(ServeRequest *request, char *text)
                     (!*height || url_integer(height, &size->height));
     if (!is_number)
         return serve_refuse(request, 404,
-                            "expected a size: WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail, as in 800x.jpg");
+                            "expected a size: WIDTHxHEIGHT, WIDTHx, xHEIGHT, full, auto or thumbnail, as in 800x.jpg");
     if ((*text && !size->width) || (*height && !size->height))
         return serve_refuse(request, 400, "a size of 0 pixels");
     size->kind = !*height ? SERVE_SIZE_WIDTH : !*text ? SERVE_SIZE_HEIGHT : SERVE_SIZE_FILL;

@@ -12,7 +12,7 @@
  * EDITS are the text of an edit, see retex/edit.h, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have
  * further options of these targets, lamps `light:LAMP=VALUE`, finishes `finish:TARGET=NAME`, exposure=STOPS,
  * white-balance=KELVINS, auto-exposure=yes and view=NAME, which mean picture:exposure and so on, preset=NAME, and
- * crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
+ * crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full, auto or thumbnail.
  *
  * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be
  * UTF-8 without control characters, slashes and backslashes. */
@@ -91,6 +91,7 @@ typedef struct ServeRequest {
     /* pictures, thumbnails, textures and images of IIIF */
     ServeRegion region;
     ServeSize size;
+    int size_by_hints; /* 1: `auto`, which hints.h makes a size; until then it is SERVE_SIZE_MAX */
     int quarter_turns; /* 0..3, clockwise, after scaling */
     int mirror;        /* 1: left-right, before turning */
     int gray;
