@@ -18,7 +18,7 @@ static const CliOption options[] = {
     {"listen", 0, "ADDRESS", "listen on this address; default 127.0.0.1", 0},
     {"textures", 0, "FOLDER", "images that a URL may name; without it there are only colours", 0},
     {"presets", 0, "FOLDER", "presets that a URL may name, files NAME.json as retex-combine writes them", 0},
-    {"quality", 0, "N", "quality of JPEG, WebP and AVIF if the URL has none, 1 to 100; default 95", 0},
+    {"quality", 0, "N", "quality of JPEG, WebP, AVIF and JPEG XL if the URL has none, 1 to 100; default 95", 0},
     {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0},
     {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0},
     {"picture-memory", 0, "SIZE", "keep finished pictures of at most SIZE in memory; default 128 MB", 0},

@@ -12,9 +12,10 @@ set -eu
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
 # reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
-# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libdraco-dev and
-# libmeshoptimizer-dev meshes of glTF that are compressed, libmicrohttpd-dev HTTP and nettle-dev the names of uploads for
-# retex-serve. esbuild makes one small script of the modules of web pages.
+# fonts of text in scenes, libgif-dev palettes of pictures, libavif-dev and libjxl-dev write AVIF and JPEG XL,
+# libassimp-dev models for retex-import, libdraco-dev and libmeshoptimizer-dev meshes of glTF that are compressed,
+# libmicrohttpd-dev HTTP and nettle-dev the names of uploads, and signatures, for retex-serve. esbuild makes one small
+# script of the modules of web pages.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -26,6 +27,8 @@ pkg OpenEXR libopenexr-dev
 pkg OpenColorIO libopencolorio-dev
 pkg lcms2 liblcms2-dev
 pkg libtiff-4 libtiff-dev
+pkg libavif libavif-dev
+pkg libjxl libjxl-dev
 embree rtcore.h libembree-dev
 pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
@@ -55,6 +58,7 @@ python pip python3-pip
 python setuptools python3-setuptools
 python wheel python3-wheel
 command oiiotool openimageio-tools
+command djxl libjxl-tools
 command transicc liblcms2-utils
 command zsh zsh
 command fish fish
@@ -173,8 +177,8 @@ config() {
     # for retex.pc, so that others can link the static library
     echo "LIBRETEX_REQUIRES := $modules"
     echo "LIBRETEX_PRIVATE_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR) $exr_core -ldl -lm -pthread"
-    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate)"
-    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate)"
+    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate libavif libjxl)"
+    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate libavif libjxl)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"
     echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp draco) -lmeshoptimizer -lstdc++"
     echo "SERVE_CFLAGS := $(cflags libmicrohttpd nettle)"

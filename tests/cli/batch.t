@@ -17,7 +17,7 @@ $ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.
 ! retex-combine: error: ../t:7: no output in the first cell
 ! retex-combine: error: ../t:9: ./b.png: the output of the table's line 8 and the output of the table's line 9 are the same file
 ! retex-combine: error: ../t:10: brick.jpg: the output of the table's line 10 would replace the texture
-! retex-combine: error: ../t:11: x.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-combine: error: ../t:11: x.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
 ! retex-combine: error: ../t:13: ../before: cannot read: OpenImageIO could not find a format reader for "../before". Is it a file format that OpenImageIO doesn't know about?
 ! retex-combine: error: ../t:14: scenes: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has README.md, brick.jpg, damask.jpg and 5 more
@@ -77,7 +77,7 @@ $ printf '%s\n' output,Sofa,Floor,Wall 'gone/a.xyz,,:foo=1 brick.jpg,none.jpg' '
 ! retex-combine: error: ../t:2: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 ! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:2: the folder of gone/a.xyz is not there; --mkdir makes it
-! retex-combine: error: ../t:2: gone/a.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-combine: error: ../t:2: gone/a.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-combine: error: ../t:3: more cells than the first row has
 ! retex-combine: error: ../t:3: a table cannot write to standard output
 ! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
@@ -240,7 +240,7 @@ $ retex-combine s.exr --batch ../t --mkdir --dry-run -q; retex-combine s.exr --b
 $ b='\357\273\277output,"floor"\r\n\r\n"a\n\033[1m.png","rgb(1,0,0)"\r\n'; printf "$b\"b\n.nope\"" >../odd; retex-combine s.exr --batch ../odd; printf "$b\"b\n\"\".png\",brick.jpg" >../odd; retex-combine s.exr --batch ../odd --dry-run
 > a??[1m.png: Floor <- rgb(1,0,0)
 > b?".png: Floor <- brick.jpg
-! retex-combine: error: ../odd:5: b?.nope: no picture format that can be written has the ending .nope; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-combine: error: ../odd:5: b?.nope: no picture format that can be written has the ending .nope; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 
 # Made, with folders where they are missing, and told as JSON. The report has the rest.
 $ retex-combine s.exr --batch ../t --mkdir --texture 'wall=rgb(1,0,0)' --progress json --report ../report 2>../log; sh ../times <../log; sh ../times <../report; sh ../new; retex-combine -q s.exr --texture floor=brick.jpg --texture:scale=2 wall=brick.jpg -o ../one.png; cmp out/new/a.png ../one.png; rm -r out b,1.png c.jpg

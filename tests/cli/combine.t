@@ -61,7 +61,7 @@ $ retex-combine -q s.exr --texture floor=none.jpg -o y.exr
 ! retex-combine: error: cannot read none.jpg: No such file or directory
 = 2
 $ retex-combine -q s.exr -o y.xyz
-! retex-combine: error: y.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-combine: error: y.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 = 2
 $ retex-combine -q s.exr -o nowhere/y.png
 ! retex-combine: error: cannot write nowhere/y.png: No such file or directory

@@ -30,7 +30,7 @@ $ printf 'output,F\nx.png,u.jpg\nu.jpg,t.jpg\n' >v1; printf 'output,F\nx.png,u.j
 ! retex-render: error: v2:4: sub/../x.png: the output of the table's line 2 and the output of the table's line 4 are the same file
 ! retex-render: error: t.jpg: the output of the table's line 3 would replace a file that the scene reads
 ! retex-render: error: v4:3: room.pov: the output of the table's line 3 would replace the scene
-! retex-render: error: v4:3: room.pov: no picture format that can be written has the ending .pov; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-render: error: v4:3: room.pov: no picture format that can be written has the ending .pov; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: v5:4: later.png: the output of the table's line 3 and the output of the table's line 4 are the same file
 ! retex-render: error: v6.png:3: v6.png: the output of the table's line 3 would replace the table
 ! retex-render: error: v7:2: x.png: the output of the table's line 2 would replace the texture

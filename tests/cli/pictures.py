@@ -179,6 +179,7 @@ SIGNATURES = [
     ("png", 0, "89504e470d0a1a0a"), ("jpg jpe jpeg jif jfif jfi", 0, "ffd8ff"),
     ("tif tiff tx env sm vsm", 0, "49492a00 4d4d002a"), ("exr sxr mxr", 0, "762f3101"), ("hdr rgbe", 0, "233f52"),
     ("bmp dib", 0, "424d"), ("tga tpic", 0, "000002 00000a"), ("webp", 8, "57454250"), ("avif", 4, "6674797061766966"),
+    ("jxl", 0, "ff0a"),
     ("heic", 4, "6674797068656963"), ("heif", 4, "6674797068656963 667479706d696631"),
     ("jp2", 0, "0000000c6a5020200d0a870a"), ("j2k j2c", 0, "ff4fff51"), ("dpx", 0, "53445058 58504453"),
     ("gif", 0, "474946383761 474946383961"), ("ppm", 0, "5036"), ("pnm", 0, "5036"), ("pfm", 0, "5046"),
@@ -205,7 +206,7 @@ def endings():
                 begin = file.read(64)[at:].hex()
             if not any(begin.startswith(mark) for mark in marks):
                 print(f"{name}: begins with {begin}")
-            written.append(name)
+            written += [name] if ending != "jxl" else []  # which OpenImageIO 2.4 does not read: cli/serve_formats does
         elif done.returncode != 2 or os.path.exists(name) or ".tif .exr .hdr" not in told or told.count("\n") != 1:
             print(f"{name}: {done.returncode} {told}")
     for line in subprocess.run(["make_digests", *written], stdout=subprocess.PIPE, check=True).stdout.decode().split("\n"):

@@ -71,7 +71,7 @@ $ echo old >old.exr; retex-render bad.pov -o old.exr 2>/dev/null; cat old.exr; l
 $ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } }\nsphere { 0, 1 texture { Ball } } light_source { -9*z rgb 1 }\n' >ball.pov; rm -f err; set -- --size 2000x2000 --spp 4096 ball.pov; timeout 5 retex-render "$@" -o nowhere/x.exr; timeout 5 retex-render "$@" -o nowhere/x.png; timeout 5 retex-render "$@" -o x.xyz; timeout 5 retex-render "$@" -o noending; timeout 5 retex-render "$@" -o ball.pov; timeout 5 retex-render "$@" -o x.exr --stats nowhere/x.json
 ! retex-render: error: cannot write nowhere/x.exr: No such file or directory
 ! retex-render: error: cannot write nowhere/x.png: No such file or directory
-! retex-render: error: x.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-render: error: x.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
 ! retex-render: error: ball.pov: the output would replace the scene
 ! retex-render: error: --stats: cannot write nowhere/x.json: No such file or directory
@@ -191,9 +191,9 @@ $ { echo output,floor; for k in $(seq 17); do echo "v$k.exr,\"rgb(0.$k,0.5,0)\""
 $ printf 'output,Floor\nv1.exr,scenes/textures/brick.jpg\nv2.exr,\n' >mesh.csv; for s in living-room glass-caustics; do set -- --size 32x24 --spp 70 scenes/$s/$s.pov; retex-render -q --variants mesh.csv "$@"; retex-render -q --replace Floor=scenes/textures/brick.jpg "$@" -o w1.exr; retex-render -q --plain "$@" -o w2.exr; for k in 1 2; do cmp v$k.exr w$k.exr; done; done; rm mesh.csv v1.exr v2.exr w1.exr w2.exr
 $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.png,none.jpg\n' | retex-render -q --variants - --size 8x6 scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.nothing,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q -t floor --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: the output of the table's line 2 would replace the scene
-! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: no picture format that can be written has the ending .pov; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: no picture format that can be written has the ending .pov; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
-! retex-render: error: standard input:2: x.nothing: no picture format that can be written has the ending .nothing; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-render: error: standard input:2: x.nothing: no picture format that can be written has the ending .nothing; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: standard input:1: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green, Lamp
 ! retex-render: error: standard input:1: no target is called 'nope'; the scene has floor; name it with -t
 ! retex-render: error: the table of --variants names the outputs: no -o

@@ -140,7 +140,7 @@ $ retex-render -q --list-targets=big.exr --size 400x400 room.pov >/dev/null; oii
 $ retex-render -q --list-targets=- room.pov; retex-render -q --list-targets=room.pov room.pov; retex-render -q --list-targets=sheet.what room.pov; retex-render -q --list-targets= room.pov
 ! retex-render: error: the answer and the file of --list-targets cannot both be standard output
 ! retex-render: error: room.pov: the file of --list-targets would replace the scene
-! retex-render: error: sheet.what: no picture format that can be written has the ending .what; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
+! retex-render: error: sheet.what: no picture format that can be written has the ending .what; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: --list-targets: the name is empty
 = 2
 # Its memory is limited.

@@ -169,7 +169,7 @@ static void test_any_order_and_threads(void **state)
 /* In memory there are the bytes of the file. */
 static void test_memory_is_the_file(void **state)
 {
-    static const char *const formats[] = {"jpg", "png", "exr", "webp", "tif"};
+    static const char *const formats[] = {"jpg", "png", "exr", "webp", "tif", "avif", "jxl"};
     RetexWriteParams params = RETEX_WRITE_INIT;
     RetexImage im = {0};
     (void)state;

@@ -231,13 +231,13 @@ static void test_info(void **state)
     fclose(file);
     json_t *info = json_loads(text, JSON_REJECT_DUPLICATES, NULL),
            *expected = json_pack(
-               "{s:s,s:s,s:s,s:s,s:s,s:i,s:i,s:[{s:i,s:i},{s:i,s:i},{s:i,s:i}],s:[{s:i,s:[i,i,i]}],s:[s,s],s:[s],"
+               "{s:s,s:s,s:s,s:s,s:s,s:i,s:i,s:[{s:i,s:i},{s:i,s:i},{s:i,s:i}],s:[{s:i,s:[i,i,i]}],s:[s,s],s:[s,s],"
                "s:[s,s,s]}",
                "@context", "http://iiif.io/api/image/3/context.json", "id", "https://a.b/iiif/3/r%C3%A4ume;Floor=oak",
                "type", "ImageService3", "protocol", "http://iiif.io/api/image", "profile", "level2", "width", 1999,
                "height", 1001, "sizes", "width", 500, "height", 251, "width", 1000, "height", 501, "width", 1999,
                "height", 1001, "tiles", "width", 512, "scaleFactors", 1, 2, 4, "extraQualities", "color", "gray",
-               "extraFormats", "webp", "extraFeatures", "mirroring", "canonicalLinkHeader", "profileLinkHeader");
+               "extraFormats", "webp", "jxl", "extraFeatures", "mirroring", "canonicalLinkHeader", "profileLinkHeader");
     assert_non_null(info);
     assert_non_null(expected);
     if (!json_equal(info, expected))

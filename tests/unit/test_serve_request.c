@@ -295,6 +295,9 @@ static void test_accept(void **state)
         {"IMAGE/*;q=0.1", ALL, SERVE_JPEG},
         {"image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8", ALL, SERVE_AVIF}, /* Chromium */
         {"image/avif,image/webp,*/*", ALL & ~(1u << SERVE_AVIF), SERVE_WEBP},
+        {"image/jxl,image/webp,image/*", ALL, SERVE_JXL},
+        {"image/jxl,image/webp,image/*", ALL & ~(1u << SERVE_JXL), SERVE_WEBP},
+        {"image/avif;q=0.8,image/jxl;q=0.9", ALL, SERVE_JXL},
         {"image/avif,image/webp,*/*", 1u << SERVE_JPEG, SERVE_JPEG},
         {"image/png", ALL, SERVE_PNG},
         {"image/png, */*;q=0.5", ALL, SERVE_PNG},
@@ -333,13 +336,13 @@ static void test_hints(void **state)
         const char *width, *viewport_width, *dpr;
         int wanted;
     } cases[] = {
-        {NULL, NULL, NULL, 0},     {"1", NULL, NULL, 320},        {"320", NULL, NULL, 320},    {"321", NULL, NULL, 480},
-        {"640", "9", "3", 640},    {"99999", NULL, NULL, 3840},   {NULL, "390", "3", 1280},    {NULL, "390", NULL, 480},
-        {NULL, "390", "2.5", 1280}, {NULL, "400", "0.5", 320},    {NULL, NULL, "3", 0},        {"0", "390", "1", 480},
-        {"-5", NULL, NULL, 0},     {"640px", NULL, NULL, 0},      {" 640 ", NULL, NULL, 640},  {"", "", "", 0},
-        {"1e3", NULL, NULL, 0},    {".5", NULL, NULL, 0},         {"639.5", NULL, NULL, 640},  {"640.5", NULL, NULL, 960},
-        {"nan", "inf", "1", 0},    {NULL, "390", "x", 480},       {"1,2", NULL, NULL, 0},
-        {"9999999999999", NULL, NULL, 0}, {"99999999999", NULL, NULL, 3840}, {NULL, "999999999999", "999999999999", 3840},
+        {NULL, NULL, NULL, 0}, {"1", NULL, NULL, 320}, {"320", NULL, NULL, 320}, {"321", NULL, NULL, 480},
+        {"640", "9", "3", 640}, {"99999", NULL, NULL, 3840}, {NULL, "390", "3", 1280}, {NULL, "390", NULL, 480},
+        {NULL, "390", "2.5", 1280}, {NULL, "400", "0.5", 320}, {NULL, NULL, "3", 0}, {"0", "390", "1", 480},
+        {"-5", NULL, NULL, 0}, {"640px", NULL, NULL, 0}, {" 640 ", NULL, NULL, 640}, {"", "", "", 0},
+        {"1e3", NULL, NULL, 0}, {".5", NULL, NULL, 0}, {"639.5", NULL, NULL, 640}, {"640.5", NULL, NULL, 960},
+        {"nan", "inf", "1", 0}, {NULL, "390", "x", 480}, {"1,2", NULL, NULL, 0}, {"9999999999999", NULL, NULL, 0},
+        {"99999999999", NULL, NULL, 3840}, {NULL, "999999999999", "999999999999", 3840},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -362,8 +365,9 @@ static void test_hints(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_routes),   cmocka_unit_test(test_textures), cmocka_unit_test(test_encodings),
-        cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept), cmocka_unit_test(test_hints),   cmocka_unit_test(test_sizes_are_bounded),
+        cmocka_unit_test(test_routes), cmocka_unit_test(test_textures), cmocka_unit_test(test_encodings),
+        cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept), cmocka_unit_test(test_hints),
+        cmocka_unit_test(test_sizes_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

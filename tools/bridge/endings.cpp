@@ -36,6 +36,7 @@ const std::vector<Format> &formats()
         {{"tga", "tpic"}, 2, {"\x02", "\x03", "\x0a", "\x0b"}}, // the type of a picture: no mark is at the beginning
         {{"webp"}, 8, {"WEBP"}},
         {{"avif"}, 4, {"ftypavif"}},
+        {{"jxl"}, 0, {"\xff\x0a"}},
         {{"heic"}, 4, {"ftypheic", "ftypheix"}},
         {{"heif"}, 4, {"ftypheic", "ftypheix", "ftypmif1"}},
         {{"jp2"}, 0, {bytes("\0\0\0\x0cjP  \r\n\x87\n")}},
@@ -79,8 +80,8 @@ bool has_known_ending(const std::string &ending)
 std::vector<std::string> known_endings()
 {
     static const std::vector<std::string> shown = {"tif",  "exr", "hdr", "bmp", "tga", "webp", "avif",
-                                                   "heic", "jp2", "j2k", "dpx", "gif", "ppm",  "pnm",
-                                                   "sgi",  "ico", "iff", "rla", "fits"};
+                                                   "jxl",  "heic", "jp2", "j2k", "dpx", "gif", "ppm",
+                                                   "pnm",  "sgi",  "ico", "iff", "rla", "fits"};
     return shown;
 }
 

@@ -2,6 +2,7 @@
 // the display transform. The file is encoded in memory and then written, because few format libraries detect a full
 // disk.
 #include "bridge.hpp"
+#include "encode.hpp"
 #include "endings.hpp"
 
 #include <algorithm>
@@ -71,9 +72,6 @@ template <typename Value> Value quantise(float v)
     return v >= 1 ? Value(~Value(0)) : Value(v * top + 0.5f);
 }
 
-// The destination of the encoded bytes.
-using Sink = std::function<void(const void *data, size_t bytes)>;
-
 // A file in memory.
 class MemoryFile
 {
@@ -131,19 +129,6 @@ void MemoryFile::copy_to(const Sink &sink) const
             at += got;
         }
     }
-}
-
-// Writes portable float maps, which OpenImageIO only reads. Rows go from bottom to top.
-void write_pfm(MemoryFile &memory_file, int width, int height, int channels, const float *pixels)
-{
-    const uint16_t probe = 1;
-    bool little = *reinterpret_cast<const uint8_t *>(&probe) == 1;
-    std::string header = (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(width) + " " + std::to_string(height) +
-                         (little ? "\n-1.0\n" : "\n1.0\n");
-    memory_file.append(header.data(), header.size());
-    size_t row = size_t(width) * channels;
-    for (int y = height; y-- > 0;)
-        memory_file.append(pixels + y * row, row * sizeof(float));
 }
 
 // A temporary file with a name, for formats whose library requires a file of its ending (JPEG 2000).
@@ -219,19 +204,14 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
 // Channels of the file: formats without alpha, and those that have no grey.
 int stored_channels(const std::string &format, bool has_alpha, int channels)
 {
-    static const std::set<std::string> colored = {"hdr", "webp", "gif", "heif", "iff"};
+    static const std::set<std::string> colored = {"hdr", "webp", "gif", "heif", "iff", "avif", "jxl"};
     return (channels == 4 && !has_alpha) || (channels == 1 && colored.count(format)) ? 3 : channels;
 }
 
-// Formats to which OpenImageIO passes unassociated colours unchanged. Others need or keep colours multiplied by alpha.
+// Formats that get unassociated colours unchanged. Others need or keep colours multiplied by alpha.
 bool keeps_unassociated(const std::string &format)
 {
-    return format == "png" || format == "tiff" || format == "targa";
-}
-
-bool is_pfm(const std::string &path)
-{
-    return strcasecmp(ending(path).c_str(), "pfm") == 0;
+    return format == "png" || format == "tiff" || format == "targa" || format == "avif" || format == "jxl";
 }
 
 bool is_encoded(Depth depth)
@@ -287,16 +267,16 @@ std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int heig
     if (width < 1 || height < 1 || (channels != 1 && channels != 3 && channels != 4))
         throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
     auto plan = std::make_unique<RetexBridgePlan>();
-    bool pfm = is_pfm(path);
-    auto out = pfm ? nullptr : find_writer(path);
+    const Encoder *own = find_encoder(ending(path));
+    auto out = own ? nullptr : find_writer(path);
     if (out)
         check_ending(path, *out, channels);
     plan->path = path;
-    plan->format = pfm ? "pfm" : out->format_name();
+    plan->format = own ? own->format : out->format_name();
     plan->width = width;
     plan->height = height;
     plan->channels = channels;
-    plan->stored = stored_channels(plan->format, pfm ? false : out->supports("alpha"), channels);
+    plan->stored = stored_channels(plan->format, own ? own->has_alpha : out->supports("alpha"), channels);
     plan->depth = depth_of(plan->format, params.depth);
     plan->quality = std::min(100, std::max(1, params.quality));
     plan->names_colorspace = params.colorspace && *params.colorspace;
@@ -387,12 +367,11 @@ bool goes_by_name(const std::string &format)
 
 void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink &sink)
 {
-    MemoryFile memory_file;
-    if (plan.format == "pfm") {
-        write_pfm(memory_file, plan.width, plan.height, plan.stored, static_cast<const float *>(samples));
-        memory_file.copy_to(sink);
+    if (const Encoder *own = find_encoder(plan.format)) {
+        own->encode({samples, plan.width, plan.height, plan.stored, plan.quality, !plan.names_colorspace}, sink);
         return;
     }
+    MemoryFile memory_file;
     OIIO::ImageSpec spec = describe(plan);
     // TIFF strips are compressed by a pool with one thread less than the cores; a pool of 1 thread does not compress
     // them.
@@ -465,8 +444,9 @@ std::string endings_to_write()
     std::string list = ".png .jpg .pfm";
     for (const std::string &end : known_endings()) {
         const std::string path = "x." + end;
-        auto out = OIIO::ImageOutput::create(path);
-        if (out && find_obstacle(path, *out, 3).empty())
+        const bool is_own = find_encoder(end) != nullptr;
+        auto out = is_own ? nullptr : OIIO::ImageOutput::create(path);
+        if (is_own || (out && find_obstacle(path, *out, 3).empty()))
             list += " ." + end;
     }
     OIIO::geterror();
@@ -476,10 +456,11 @@ std::string endings_to_write()
 // Check the transform only if the user named a part of it; the built-in default is valid.
 void check_picture(const char *path, const RetexWriteParams &params)
 {
-    auto out = is_pfm(path) ? nullptr : find_writer(path);
+    const Encoder *own = find_encoder(ending(path));
+    auto out = own ? nullptr : find_writer(path);
     if (out)
         check_ending(path, *out, 3);
-    Depth depth = depth_of(out ? out->format_name() : "pfm", params.depth);
+    Depth depth = depth_of(own ? own->format : out->format_name(), params.depth);
     bool named = params.display || params.view || params.colorspace;
     if (named || std::getenv("OCIO"))
         encoding(params, depth);

@@ -171,13 +171,13 @@ int picture_make(const PicturePlan *plan, int nthreads, void **data, size_t *byt
 
 /* ---- formats ---- */
 
-/* Whether a file is what its ending says: OpenImageIO 2.4 writes HEIC by the name of AVIF. */
+/* Whether a file is what its ending says. */
 static int has_signature(ServeFormat format, const char *data, size_t bytes)
 {
     static const struct {
         size_t at;
         const char *text;
-    } signatures[SERVE_FORMATS] = {{0, "\xff\xd8"}, {0, "\x89PNG"}, {8, "WEBP"}, {8, "avif"}};
+    } signatures[SERVE_FORMATS] = {{0, "\xff\xd8"}, {0, "\x89PNG"}, {8, "WEBP"}, {8, "avif"}, {0, "\xff\x0a"}};
     const size_t at = signatures[format].at, length = strlen(signatures[format].text);
     return bytes >= at + length && memcmp(data + at, signatures[format].text, length) == 0;
 }

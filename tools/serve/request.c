@@ -28,7 +28,7 @@ int serve_refuse(ServeRequest *request, int status, const char *fmt, ...)
 static const struct {
     const char *extension, *type;
 } format_names[SERVE_FORMATS] = {
-    {"jpg", "image/jpeg"}, {"png", "image/png"}, {"webp", "image/webp"}, {"avif", "image/avif"}};
+    {"jpg", "image/jpeg"}, {"png", "image/png"}, {"webp", "image/webp"}, {"avif", "image/avif"}, {"jxl", "image/jxl"}};
 
 const char *serve_format_extension(ServeFormat format)
 {
@@ -50,17 +50,18 @@ int serve_format_set(ServeRequest *request, const char *extension, unsigned form
     return serve_refuse(request, 400, "pictures are not written as .%s; /v1 lists the formats", extension);
 }
 
-/* The format of the highest weight; of several, the smallest files. AVIF and WebP must be named, for a program that
- * accepts anything may know neither. */
+/* The format of the highest weight; of several, the smallest files. The first three must be named, for a program that
+ * accepts anything may know none of them. */
 static int choose_format(ServeRequest *request, const char *accept, unsigned formats)
 {
-    static const ServeFormat order[] = {SERVE_AVIF, SERVE_WEBP, SERVE_JPEG, SERVE_PNG};
+    static const ServeFormat order[SERVE_FORMATS] = {SERVE_AVIF, SERVE_JXL, SERVE_WEBP, SERVE_JPEG, SERVE_PNG};
     double best = 0;
     request->format_by_accept = 1;
+    enum { HAVE_TO_BE_NAMED = 3 };
     for (int i = 0; i < SERVE_FORMATS; i++) {
         int named;
         double weight = url_accepts(accept, format_names[order[i]].type, &named);
-        if (!(formats & 1u << order[i]) || (i < 2 && !named) || weight <= best)
+        if (!(formats & 1u << order[i]) || (i < HAVE_TO_BE_NAMED && !named) || weight <= best)
             continue;
         best = weight;
         request->format = order[i];

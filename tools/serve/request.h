@@ -43,7 +43,7 @@ typedef enum ServeRoute {
     SERVE_UPLOAD /* POST /v1/uploads, which is no URL of a GET */
 } ServeRoute;
 
-typedef enum ServeFormat { SERVE_JPEG, SERVE_PNG, SERVE_WEBP, SERVE_AVIF, SERVE_FORMATS } ServeFormat;
+typedef enum ServeFormat { SERVE_JPEG, SERVE_PNG, SERVE_WEBP, SERVE_AVIF, SERVE_JXL, SERVE_FORMATS } ServeFormat;
 
 /* Part of the room's picture, as it was asked for. */
 typedef enum ServeRegionKind {
@@ -97,7 +97,7 @@ typedef struct ServeRequest {
     int gray;
     ServeFormat format;
     int format_by_accept; /* 1: the response needs `Vary: Accept` */
-    int quality;          /* of JPEG, WebP and AVIF, 1..100; 0 = not given */
+    int quality;          /* of all but PNG, 1..100; 0 = not given */
 } ServeRequest;
 
 /* Parse the URL of a GET or HEAD: its path and query as they came, percent-encoded. accept is the header of that name,

@@ -44,7 +44,8 @@ typedef struct RetexWriteParams {
     const char *view;       /* its view; NULL = the display's default. The built-in configuration has Standard, Filmic,
                                Neutral and Raw, see retex-combine(1) */
     const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
-    int quality;            /* of JPEG, 1..100; default 95 */
+    int quality;            /* of JPEG, 1..100, and of WebP, AVIF and JPEG XL, whose error is then about that of
+                               JPEG; default 95 */
     int is_data;            /* 1: numbers that are no colours, which an EXR stores as they are and says so; other
                                formats go by what is above. Default 0 */
     int depth;              /* bits of integers: 8 or 16. Default 0 = the format's: 16 of TIFF and DPX, 8 of others */
