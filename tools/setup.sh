@@ -59,6 +59,7 @@ python setuptools python3-setuptools
 python wheel python3-wheel
 command oiiotool openimageio-tools
 command djxl libjxl-tools
+command tsc node-typescript
 command transicc liblcms2-utils
 command zsh zsh
 command fish fish

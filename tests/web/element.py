@@ -6,6 +6,7 @@ import sys
 
 from browser import serve
 from page import PART, ROOM, Page, finish, result
+from refused import check_refused
 from trouble import check_trouble
 
 work = sys.argv[1]
@@ -288,6 +289,7 @@ def main():
         check_drop(page)
         check_access(page)
         page.size(1280, 800)
+        check_refused(page, url, work, write)
         check_trouble(page, url, work, write)
         bad = [e["params"]["exceptionDetails"]["text"] for e in page.events if e.get("method") == "Runtime.exceptionThrown"]
         result(not bad, f"no script fails {bad or ''}")

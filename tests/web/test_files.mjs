@@ -68,15 +68,15 @@ test("names of addresses", () => {
 function server(answers, protocol = "https:") {
   const asked = [], waits = [];
   const world = {
-    fetch: async (url, { cache }) => {
-      asked.push([String(url), cache]);
+    fetch: async (url, { cache, mode }) => {
+      asked.push([String(url), mode || cache]);
       const answer = answers.shift();
       if (answer instanceof Error) throw answer;
       const [status, bytes = []] = answer;
       return { ok: status === 200, status, arrayBuffer: async () => Uint8Array.from(bytes).buffer };
     },
     setTimeout: (action, wait) => (waits.push(wait), action()),
-    location: { protocol },
+    location: { protocol, origin: "https://x.org", href: "https://x.org/page.html" },
   };
   return { ...player(world), asked, waits };
 }
@@ -101,6 +101,16 @@ test("what stays away is told after the fifth time, what is missing at once", as
   same(s.asked.length, 1);
   s = server([new Error("away")], "file:");
   await fails(() => s.fetchBytes("a.jpg", signal), "This page must come from a web server, not from a file.");
+});
+
+test("what another site does not let pages read is told at once, by the header that is missing", async () => {
+  let s = server([new Error("away"), [0]]);
+  await fails(() => s.fetchBytes("https://cdn.org:8/b/a%20b.jpg", signal), "cdn.org:8 answers, but does not let pages of https://x.org read a b.jpg: " +
+    "the header Access-Control-Allow-Origin is missing, or names another site.");
+  same(s.asked, [["https://cdn.org:8/b/a%20b.jpg", "default"], ["https://cdn.org:8/b/a%20b.jpg", "no-cors"]]);
+  s = server([new Error("away"), new Error("away"), [200, [7]]]); // a connection that broke
+  same([...(await s.fetchBytes("https://cdn.org/a.jpg", signal))], [7]);
+  same(s.waits, [500]);
 });
 
 test("what was ended is not tried again", async () => {

@@ -109,6 +109,7 @@ export class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), 
     const box = this.$(".message");
     box.hidden = !message;
     box.firstChild.textContent = message || "";
+    if (message) this.$(".room").classList.toggle("empty", !this.room); // there is nothing to control
     if (message) this.$(".bar").hidden = true, this.emit("retex-error", { message });
   }
 

@@ -21,13 +21,23 @@ export async function fetchBytes(url, signal, cache = "default") {
     } catch (error) {
       if (signal.aborted) throw error;
       if (location.protocol === "file:") throw new Error("This page must come from a web server, not from a file.");
+      if (await isRefused(url, signal)) throw new Error(refusalOf(url));
       if (wait > 4000) throw new Error(`${nameOf(url)} could not be loaded. Is there a connection?`);
     }
-    if (answer && !answer.ok && (answer.status < 500 || wait > 4000)) throw new Error(`${nameOf(url)} is missing (status ${answer.status}).`);
+    if (answer && !answer.ok && (answer.status < 500 || wait > 4000))
+      throw Object.assign(new Error(`${nameOf(url)} is missing (status ${answer.status}).`), { status: answer.status });
     await new Promise((resolve) => setTimeout(resolve, wait));
     signal.throwIfAborted();
   }
 }
+
+/* Of what another site does not let pages read, browsers tell a page no more than of a broken connection: neither headers
+ * nor status. Asked for without reading it, it arrives all the same. */
+const isRefused = async (url, signal) => new URL(url, location.href).origin !== location.origin &&
+  fetch(url, { signal, mode: "no-cors", cache: "no-store" }).then(() => !signal.aborted, () => false);
+
+const refusalOf = (url) => `${new URL(url).host} answers, but does not let pages of ${location.origin} read ${nameOf(url)}: ` +
+  "the header Access-Control-Allow-Origin is missing, or names another site.";
 
 /* What people call the file of an address. */
 export function nameOf(url) {

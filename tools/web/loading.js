@@ -16,6 +16,7 @@ export const withLoading = (Base) => class extends Base {
     const abort = (this.abort = new AbortController());
     this.renderer = this.room = this.lampsComing = null;
     this.textures = [];
+    this.$(".room").classList.remove("empty");
     this.fail(null);
     this.whenComplete = this.run(abort.signal, kept).catch((error) => {
       if (!abort.signal.aborted) this.fail(error.message);
@@ -24,7 +25,9 @@ export const withLoading = (Base) => class extends Base {
 
   async run(signal, kept) {
     const base = new URL(this.getAttribute("src").replace(/\/?$/, "/"), document.baseURI);
-    const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache"));
+    const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache").catch((error) => {
+      throw error.status ? new Error(`There is no room in ${base.href}: ${error.message}`) : error;
+    }));
     let room;
     try {
       room = JSON.parse(text);

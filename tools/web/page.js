@@ -30,6 +30,7 @@ svg { width: 22px; height: 22px; fill: none; stroke: currentColor; stroke-width:
 .split:focus-visible { outline: none; } .split:focus-visible::-webkit-slider-thumb { outline: 3px solid var(--accent); } .split:focus-visible::-moz-range-thumb { outline: 3px solid var(--accent); }
 .message { position: absolute; inset: 14px 14px auto; width: fit-content; margin: auto; display: flex; gap: 8px; align-items: center; padding: 8px 8px 8px 20px; border-radius: 14px; background: var(--paper); box-shadow: 0 2px 14px #0004; }
 .message button { border: 0; background: none; padding: 10px; }
+.empty .panel, .empty .tools { display: none; }
 .panel { width: 304px; padding: 20px; overflow: auto; border-left: 1px solid var(--line); background: var(--paper); min-height: 0; }
 h2 { display: flex; font-size: 15px; font-weight: 600; margin: 24px 0 10px; } h2:first-child { margin-top: 0; }
 h2 .chosen { margin-left: auto; padding-left: 12px; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; font-weight: 400; color: var(--soft); }

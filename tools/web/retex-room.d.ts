@@ -119,3 +119,24 @@ declare global {
     "retex-room": RetexRoom;
   }
 }
+
+/** Attributes of the element, for JSX. */
+export interface RetexRoomAttributes {
+  /** The room's folder. */
+  src?: string;
+  /** URLs of pictures, and colours, to offer, separated by blanks. */
+  textures?: string;
+  panel?: "closed";
+  "no-link"?: "" | boolean;
+}
+
+// For React 18 and 19. Programs without React have no such module, which the comments let pass.
+// @ts-ignore
+declare module "react" {
+  namespace JSX {
+    interface IntrinsicElements {
+      // @ts-ignore
+      "retex-room": DetailedHTMLProps<HTMLAttributes<RetexRoom>, RetexRoom> & RetexRoomAttributes;
+    }
+  }
+}
