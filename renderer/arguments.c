@@ -9,6 +9,7 @@
 
 #include "base/digest.h"
 #include "retex-render.h"
+#include "camera/view.h"
 #include "render/mattes.h"
 
 enum {
@@ -47,6 +48,7 @@ enum {
     OPT_SEED,
     OPT_DEPTH,
     OPT_CROP,
+    OPT_CAMERA,
     OPT_FILTER,
     OPT_AOV,
     OPT_AOV_DIR,
@@ -63,6 +65,7 @@ enum {
     OPT_MERGE,
     OPT_STATS,
     OPT_TRACE,
+    OPT_LIVE,
     OPT_STEPS,
     OPT_FRAMES,
     OPT_PROGRESS
@@ -137,6 +140,10 @@ static const CliOption options[] = {
     [OPT_SEED] = {"seed", 0, "N", "seed of the random numbers; default 0", 0},
     [OPT_DEPTH] = {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0},
+    [OPT_CAMERA] = {"camera", 0, "NAME|X,Y,Z:X,Y,Z[:ANGLE]",
+                    "another camera: one that the scene declares, or where it is, what it looks at, and the horizontal "
+                    "angle of view",
+                    0},
     [OPT_FILTER] = {"filter", 0, "box|gaussian", "pixel filter; default box", 0},
     [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
     [OPT_AOV_DIR] = {"aov-dir", 0, "DIR",
@@ -161,6 +168,9 @@ static const CliOption options[] = {
     [OPT_STATS] = {"stats", 0, "FILE.json",
                    "write times, numbers of rays and paths, and memory use; - is standard output", 0},
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0},
+    [OPT_LIVE] = {"live", 0, NULL,
+                  "keep the scene open and answer requests for pictures of it, lines on standard input: see the manual",
+                  0},
     [OPT_STEPS] = {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS",
                    0},
     [OPT_FRAMES] = FRAMES_OPTION,
@@ -219,6 +229,7 @@ static void parse_option(Arguments *a, const CliOption *o)
     Cli *cli = a->cli;
     RenderParams *r = &a->render;
     RetexError err;
+    CameraView view;
     int size[2];
     if (batch_option(&a->batch, cli, o))
         return;
@@ -302,6 +313,14 @@ static void parse_option(Arguments *a, const CliOption *o)
         if (job_check_declare(cli->value, &err))
             cli_die(cli, "--declare: %s", err.message);
         push(cli, a->declares, &a->ndeclares, o->name);
+        break;
+    case OPT_CAMERA:
+        if (camera_view_read(&view, cli->value, &err) == RETEX_EINVAL)
+            cli_die(cli, "--camera: %s", err.message);
+        a->sdl.camera = cli->value;
+        break;
+    case OPT_LIVE:
+        a->live = 1;
         break;
     case OPT_RESUME:
         r->resume = 1;
@@ -409,6 +428,34 @@ static void check_lamps(const Arguments *a)
         cli_die(a->cli, "lamps cannot be combined with --control or --control-data");
     if (a->list + a->list_lamps + a->list_finishes + a->tracing > 1)
         cli_die(a->cli, "--list-targets, --list-lamps, --list-finishes and --trace-pixel exclude each other");
+}
+
+/* What is no matter of pictures alone. */
+static void check_live(Arguments *a)
+{
+    const RenderParams *r = &a->render;
+    const char *other = a->list                 ? "list-targets"
+                        : a->list_lamps         ? "list-lamps"
+                        : a->list_finishes      ? "list-finishes"
+                        : a->tracing            ? "trace-pixel"
+                        : a->variants           ? "variants"
+                        : a->control            ? "control"
+                        : r->control_data       ? "control-data"
+                        : a->denoise            ? "denoise"
+                        : a->aov_dir            ? "aov-dir"
+                        : r->aovs               ? "aov"
+                        : a->mattes             ? "mattes"
+                        : r->noise > 0          ? "noise"
+                        : r->crop[2]            ? "crop"
+                        : r->nshards            ? "shard"
+                        : r->resume             ? "resume"
+                        : a->nmerged            ? "merge"
+                                                : NULL;
+    if (!a->live)
+        return;
+    if (other)
+        cli_die(a->cli, "--live cannot be combined with --%s", other);
+    a->render.plain = 1;
 }
 
 static void check_finishes(const Arguments *a)
@@ -540,6 +587,7 @@ void parse_arguments(Arguments *a)
         cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
+    check_live(a);
     name_lamps(a);
     name_finished(a);
     check_denoise(a);
@@ -558,6 +606,7 @@ void parse_arguments(Arguments *a)
                          : a->list_lamps    ? "list-lamps"
                          : a->list_finishes ? "list-finishes"
                          : a->tracing       ? "trace-pixel"
+                         : a->live          ? "live"
                                             : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);

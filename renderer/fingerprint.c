@@ -87,6 +87,7 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
     d = digest_bytes(d, &r->noise, sizeof r->noise);
     d = digest_bytes(d, &r->unit, sizeof r->unit);
     d = digest_number(d, scene->digest);
+    d = digest_text(d, a->sdl.camera ? a->sdl.camera : "");
     d = digest_bytes(d, numbers, sizeof numbers);
     for (int k = 0; k < a->ndeclares; k++)
         d = digest_text(d, a->declares[k]);

@@ -299,6 +299,8 @@ static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *s
         list_lamps(a, scene);
     else if (a->list_finishes)
         list_finishes(scene);
+    else if (a->live)
+        code = live(a, scene, err);
     else if (a->variants)
         *status = make_variants(a, scene);
     else if (a->control)
@@ -358,7 +360,9 @@ int main(int argc, char **argv)
     parse_arguments(&a);
     int needless = a.list || a.tracing || a.variants ||
                    ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
-    a.output = needless ? NULL : cli_output(&cli);
+    a.output = needless || a.live ? NULL : cli_output(&cli);
+    if (a.live)
+        cli_output(&cli); /* no terminal, either */
     plan_frames(&a);
     int status = for_each_frame(&a, check_files);
     if (status == CLI_OK)

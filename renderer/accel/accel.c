@@ -66,7 +66,8 @@ static void bound_curved(const struct RTCBoundsFunctionArguments *args)
     /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. And for that of rays that start
      * elsewhere in the scene, as far as it does not make the bounds larger to speak of. */
     pad = 2e-6 * (largest(low) + largest(high)) +
-          fmin(1e-6 * fmax(largest(accel->low), largest(accel->high)), 0.01 * largest(vec_sub(high, low)));
+          fmin(1e-6 * fmax(accel->eye, fmax(largest(accel->low), largest(accel->high))),
+               0.01 * largest(vec_sub(high, low)));
     bounds->lower_x = (float)(low.x - pad);
     bounds->lower_y = (float)(low.y - pad);
     bounds->lower_z = (float)(low.z - pad);
@@ -213,11 +214,9 @@ static int classify_primitives(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
 
-    accel->low = accel->high = scene->camera.location;
-    if (accel->parent) { /* no camera is in it */
-        const Bounds none = bounds_empty();
-        accel->low = none.low, accel->high = none.high;
-    }
+    const Bounds none = bounds_empty();
+    accel->low = none.low, accel->high = none.high;
+    accel->eye = accel->parent ? 0 : largest(scene->camera.location); /* no camera is in what has a parent */
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *primitive = &scene->primitives[i];
         ShapeTriangles shape = {0, 0, NULL, NULL, 0, 0};
@@ -540,8 +539,8 @@ int accel_is_transparent(const Accel *accel, const Hit *hit)
     return (flags & TRANSPARENT) != 0;
 }
 
-void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
+void accel_bounds(const Accel *accel, Vec3 eye, Vec3 *low, Vec3 *high)
 {
-    *low = accel->low;
-    *high = accel->high;
+    *low = vec3(fmin(accel->low.x, eye.x), fmin(accel->low.y, eye.y), fmin(accel->low.z, eye.z));
+    *high = vec3(fmax(accel->high.x, eye.x), fmax(accel->high.y, eye.y), fmax(accel->high.z, eye.z));
 }

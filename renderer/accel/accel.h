@@ -34,8 +34,8 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
                              Visibility *visibilities);
 /* 1 if the primitive that is hit could let shadow rays through. */
 int accel_is_transparent(const Accel *accel, const Hit *hit);
-/* World bounds of all bounded primitives and the camera. */
-void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
+/* World bounds of all bounded primitives and a point, such as where the camera is. */
+void accel_bounds(const Accel *accel, Vec3 eye, Vec3 *low, Vec3 *high);
 /* The origin of a ray that leaves a surface, far enough from it that the ray does not meet it again. To go on along the
  * same ray, set tmin to the t of the last hit instead. */
 static inline double accel_margin(Vec3 position)

@@ -50,7 +50,8 @@ struct Accel {
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive and instance, as items */
     double reach;         /* the triangles' largest coordinate */
-    Vec3 low, high;
+    Vec3 low, high;      /* bounds of all that has some */
+    double eye;          /* the largest coordinate of where the camera was */
     RetexError error; /* Embree's first error */
     RetexBudget *budget;
     uint64_t charged;       /* to the budget, of what is not Embree's */

@@ -11,6 +11,8 @@ typedef struct Lights Lights;
  * have little noise. */
 int lights_create(Lights **lights, const Scene *scene, double lamp_share, RetexError *err);
 void lights_close(Lights **lights);
+/* Whether the lights of a scene whose camera is at a are others than where it is at b. */
+int lights_differ(const Scene *scene, Vec3 a, Vec3 b);
 int lights_count(const Lights *lights);
 
 /* Sample light for a point: u_pick chooses the light (of many, with u_more for what a float cannot tell), u1 and u2 the

@@ -1,5 +1,6 @@
 /* Emitting shapes and meshes as entries of the list of lights. */
 #include "light/entry.h"
+#include "light/lights.h"
 #include "shade/bsdf.h"
 #include "shade/texture.h"
 #include "shape/csg.h"
@@ -15,6 +16,16 @@ static int is_dome(const Primitive *p, Vec3 camera)
 {
     return p->texture->finish->emission_of_ambient && !p->csg && p->shape.ops->inside &&
            p->shape.ops->inside(&p->shape, transform_inverse_point(&p->transform, camera));
+}
+
+int lights_differ(const Scene *scene, Vec3 a, Vec3 b)
+{
+    int differ = 0;
+    for (int k = 0; k < scene->nprimitives && !differ; k++) {
+        const Primitive *p = &scene->primitives[k];
+        differ = p->texture && texture_is_sampled(p->texture) && is_dome(p, a) != is_dome(p, b);
+    }
+    return differ;
 }
 
 /* A sphere under rotation, translation and equal scaling. */

@@ -40,6 +40,12 @@ typedef struct Render {
     atomic_long paths;
 } Render;
 
+/* Is asked again and again by all threads. */
+typedef struct StopAsked {
+    int (*is_asked)(void *context);
+    void *context;
+} StopAsked;
+
 typedef struct HalfSamples {
     int samples[2];
 } HalfSamples;
@@ -49,12 +55,15 @@ typedef struct HalfSamples {
 /* The window, the ray structure and the lights. Close it even where this fails. */
 int render_open(Render *render, const Scene *scene, const RenderParams *params, RetexError *err);
 void render_close(Render *render);
+/* What depends on the scene's camera and on the size of the picture: after either has changed. */
+int render_look(Render *render, RetexError *err);
 void render_close_films(Render *render);
 /* For whatever traces paths: a guide to caustics where there may be some, the same for any part of the picture. */
 int render_open_guide(Render *render, RetexError *err);
 /* The film, and what each thread has. control: also a control film of all variants, with moments of 0 to 2 halves. */
 int render_open_film(Render *render, int control, int halves, RetexError *err);
 void render_drop_files(RenderParams *params); /* of a render beside the one that files are for */
+void render_choose_matte(Render *render); /* after the guide is open: whether packets sample matte surfaces together */
 FirstHitWindow render_window(const Render *render);
 const FilmLayout *render_layout(const RenderParams *params);
 int render_is_stopped(const Render *render);
@@ -69,5 +78,10 @@ void render_sample(Render *render, int x, int y, int sample); /* a single path, 
 /* The camera rays of these samples of a pixel of the whole picture. */
 void render_camera_rays(const Render *render, int x, int y, int first, int count, Ray *rays);
 HalfSamples render_half_samples(const Render *render);        /* samples of each half */
+int render_tile_pixels(const Render *render, int tile, int *x0, int *y0, int *across); /* how many */
+/* Add the light of the samples from `from` to `to` - 1 of a tile's pixels to sums, row by row. Of renders of the light
+ * alone. 0: it was told to stop. */
+int render_tile_light(const Render *render, PathWorker *worker, int tile, int from, int to, double (*sums)[3],
+                      const StopAsked *stop);
 
 #endif

@@ -118,7 +118,7 @@ void render_close(Render *r)
 static double media_reach(const Render *r)
 {
     Vec3 low, high;
-    accel_bounds(r->accel, &low, &high);
+    accel_bounds(r->accel, r->scene->camera.location, &low, &high);
     const double size = vec_length(vec_sub(high, low));
     return isfinite(size) ? fmax(1000, 32 * size) : 1000;
 }
@@ -136,6 +136,22 @@ static void set_pixel_size(const Render *r)
     *pixels = (PixelSize){.eye = ray.origin,
                           .angle = any ? vec_length(vec_sub(next.direction, ray.direction)) : 0,
                           .apart = any ? vec_length(vec_sub(next.origin, ray.origin)) : 0};
+}
+
+static void set_media(Render *r)
+{
+    r->context.camera = media_at(r->scene, r->scene->camera.location);
+    r->context.reach = media_reach(r);
+}
+
+int render_look(Render *r, RetexError *err)
+{
+    const int code = set_window(r, err);
+    if (code)
+        return code;
+    set_pixel_size(r);
+    set_media(r);
+    return RETEX_OK;
 }
 
 int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
@@ -162,10 +178,9 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .places = split && !r->params.gaussian,
                                .nvariants = 1,
                                .has_air = scene->fogs || scene->rainbows,
-                               .camera = media_at(scene, scene->camera.location),
                                .halves = 1};
     if (!code)
-        r->context.reach = media_reach(r);
+        set_media(r);
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
@@ -186,6 +201,11 @@ int render_open_guide(Render *r, RetexError *err)
                                (long)r->width * r->height * r->params.spp, r->params.nthreads, r->params.budget, err);
     r->context.caustics = r->caustics;
     return code;
+}
+
+void render_choose_matte(Render *r)
+{
+    r->context.matte = !r->context.white && !r->caustics && !r->context.caustic_sources && !r->context.has_no_shadow;
 }
 
 static int open_worker(Render *r, int k, RetexError *err)
@@ -307,6 +327,6 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
-    r->context.matte = !r->context.white && !r->caustics && !r->context.caustic_sources && !r->context.has_no_shadow;
+    render_choose_matte(r);
     return code ? code : open_pilots(r, threads, err);
 }

@@ -168,25 +168,53 @@ static void render_run(Render *r, int thread, const PixelRun *run, int spp)
     }
 }
 
+int render_tile_pixels(const Render *r, int tile, int *x0, int *y0, int *across)
+{
+    *x0 = tile % r->tiles_x * TILE_WIDTH, *y0 = tile / r->tiles_x * TILE_HEIGHT;
+    *across = r->w - *x0 < TILE_WIDTH ? r->w - *x0 : TILE_WIDTH;
+    return *across * (r->h - *y0 < TILE_HEIGHT ? r->h - *y0 : TILE_HEIGHT);
+}
+
+int render_tile_light(const Render *r, PathWorker *worker, int tile, int from, int to, double (*sums)[3],
+                      const StopAsked *stop)
+{
+    const int step = to - from < PATHS_MAX ? to - from : PATHS_MAX, together = PATHS_MAX / step;
+    PathResult paths[PATHS_MAX];
+    int x0, y0, across;
+    const int count = render_tile_pixels(r, tile, &x0, &y0, &across);
+    for (int first = 0; first < count; first += together) {
+        const PixelRun run = {x0, y0, across, first, count - first < together ? count - first : together};
+        for (int s = from; s < to; s += step) {
+            const int each = to - s < step ? to - s : step;
+            if (render_is_stopped(r) || stop->is_asked(stop->context))
+                return 0;
+            trace_run(r, worker, &run, r->params.seed, s, each, paths);
+            for (int k = 0; k < run.count * each; k++)
+                for (int c = 0; c < 3; c++)
+                    sums[first + k / each][c] += paths[k].light[c];
+        }
+    }
+    return 1;
+}
+
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;
-    int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
+    int x0, y0, across;
+    const int count = render_tile_pixels(r, tile, &x0, &y0, &across), down = count / across;
     if (film_failed(r->film) || render_is_stopped(r) || !render_is_wanted(r, tile / r->tiles_x))
         return;
-    const int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
-              down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
     const int spp = tile_samples(r, thread, x0, y0, across, down), together = pixels_together(r, spp);
     film_tile_begin(r->pixels[thread], spp);
-    for (int first = 0; first < across * down && !render_is_stopped(r); first += together) {
-        const int left = across * down - first;
+    for (int first = 0; first < count && !render_is_stopped(r); first += together) {
+        const int left = count - first;
         const PixelRun run = {x0, y0, across, first, left < together ? left : together};
         render_run(r, thread, &run, spp);
     }
     if (render_is_stopped(r)) /* a stopped render: pixels of the tile may lack samples */
         return;
     film_tile_end(r->pixels[thread], tile);
-    atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
+    atomic_fetch_add(&r->paths, (long)count * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && done < r->wanted && r->params.progress) /* render_paths tells of the end */
         r->params.progress(r->params.progress_context, (double)done / r->wanted);

@@ -143,7 +143,7 @@ int uv_scale_measure(const Scene *scene, const Accel *accel, double scale[][2], 
         unseen[t] = all[t].count == 0;
         any |= unseen[t];
     }
-    accel_bounds(accel, &low, &high);
+    accel_bounds(accel, scene->camera.location, &low, &high);
     for (uint32_t k = 0; any && k < RANDOM_RAYS; k++) {
         Ray ray = random_ray(k, low, high);
         add(scene, accel, &ray, RAY_BOUNCE, unseen, all);

@@ -548,11 +548,18 @@ typedef struct CameraOps CameraOps; /* camera/camera.h */
 typedef struct Camera {
     const CameraOps *ops;
     Vec3 location, direction, right, up;
+    Vec3 sky;                     /* what is above; not transformed */
     double angle, vertical_angle; /* degrees; of kinds that have them */
     CameraLens lens;
     const struct Normal *normal;  /* tilts rays by their place in the picture, or NULL */
     const MeshCamera *mesh;       /* of a mesh_camera, and of nothing else */
 } Camera;
+
+/* One that is #declared; no lens, no normal. */
+typedef struct NamedCamera {
+    const char *name;
+    Camera camera;
+} NamedCamera;
 
 typedef struct SkySphere {
     int npigments;           /* later ones lie over earlier ones by their filter and transmit */
@@ -687,6 +694,8 @@ typedef struct Scene {
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
     PixelSize *pixels;       /* of the render; never NULL after parsing a normal that needs it */
     Camera camera;
+    int ncameras;            /* those that are #declared, in the scene's order; of one name the last */
+    NamedCamera *cameras;
     Rgb background;
     int background_only_seen; /* 1: directly and by delta lobes; it lights no surface */
     SkySphere *sky;          /* or NULL */

@@ -320,6 +320,13 @@ static void add_name(Sdl *sdl, Value *value, const char *name, int line)
         value->data = finish;
         break;
     }
+    case VALUE_CAMERA: {
+        ParsedCamera *camera = sdl_alloc(sdl, sizeof *camera);
+        *camera = *(const ParsedCamera *)value->data;
+        camera->name = sdl_ident_add(sdl, NULL, name, line)->name, camera->next = builder_of(sdl)->cameras;
+        builder_of(sdl)->cameras = value->data = camera;
+        break;
+    }
     case VALUE_INTERIOR: {
         ParsedInterior *interior = sdl_alloc(sdl, sizeof *interior);
         *interior = *(const ParsedInterior *)value->data;

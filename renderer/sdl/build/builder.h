@@ -222,10 +222,12 @@ typedef struct ParsedSky {
 
 typedef struct ParsedCamera {
     Camera camera; /* without aperture and bokeh */
-    Vec3 sky, look_at;
+    Vec3 look_at;
     double aperture;
     int blur;                   /* blur_samples is given: the aperture counts */
     const ParsedPigment *bokeh; /* or NULL */
+    const char *name;           /* in the builder's list of cameras that are #declared: */
+    const struct ParsedCamera *next;
 } ParsedCamera;
 
 /* ---- the state ---- */
@@ -245,6 +247,7 @@ typedef struct CsgRoot {
 typedef struct Builder {
     const ParsedTexture *default_texture;
     ParsedCamera camera;
+    const ParsedCamera *cameras; /* the last one first */
     const ParsedSky *sky;
     const ParsedPigment *bokeh; /* of the camera in use, or NULL */
     int has_assumed_gamma;
@@ -482,6 +485,7 @@ const Csg *object_solid(Sdl *sdl, const Object *object); /* in its own space; ke
 void camera_default(ParsedCamera *camera);
 const ParsedCamera *parse_camera(Sdl *sdl);
 void camera_use(Sdl *sdl, const ParsedCamera *camera);
+void camera_choose(Sdl *sdl); /* at the end of the scene: the one that is asked for */
 void camera_finish(Sdl *sdl); /* what of it waits for the end of the scene */
 void parse_global_settings(Sdl *sdl);
 void parse_background(Sdl *sdl);

@@ -2,7 +2,8 @@
  * sky, location, look_at, focal_point; transforms come last, in theirs. Older scenes have it applied as it is written.
  */
 #include <string.h>
-#include "camera/camera.h"
+#include <retex/nearest.h>
+#include "camera/view.h"
 #include "sdl/build/builder.h"
 #include "shade/pigment.h"
 
@@ -21,12 +22,12 @@ void camera_default(ParsedCamera *camera)
 {
     *camera = (ParsedCamera){
         .camera = {.ops = &camera_perspective,
+                   .sky = {0, 1, 0},
                    .direction = {0, 0, 1},
                    .right = {1.33, 0, 0},
                    .up = {0, 1, 0},
                    .angle = 90,
                    .lens.focal_distance = -1},
-        .sky = {0, 1, 0},
         .look_at = {0, 0, 1},
     };
 }
@@ -67,7 +68,7 @@ static void apply_look_at(Sdl *sdl, Reading *r)
     if (vec_length(towards) == 0)
         sdl_error(sdl, "the camera's location and look_at are the same point");
     towards = vec_normalize(towards);
-    Vec3 side = vec_cross(r->camera.sky, towards);
+    Vec3 side = vec_cross(r->camera.camera.sky, towards);
     if (vec_length(side) < 1e-10) {
         sdl_warn(sdl, "the camera looks along its sky vector: its right vector is kept");
         side = c->right;
@@ -227,7 +228,7 @@ static int accept_vector(Sdl *sdl, Reading *r)
     else if (sdl_accept(sdl, "up"))
         c->up = sdl_vector(sdl), r->had_up = 1;
     else if (sdl_accept(sdl, "sky"))
-        r->camera.sky = sdl_vector(sdl);
+        c->sky = sdl_vector(sdl);
     else if (sdl_accept(sdl, "look_at"))
         r->camera.look_at = sdl_vector(sdl), r->had_look_at = 1;
     else
@@ -332,6 +333,68 @@ void camera_use(Sdl *sdl, const ParsedCamera *camera)
     c->lens.aperture = camera->blur && !(c->ops->properties & CAMERA_MESH) ? camera->aperture : 0;
     builder_of(sdl)->bokeh = c->lens.aperture != 0 ? camera->bokeh : NULL;
     picture_size(sdl, c);
+}
+
+/* ---- another one than the scene's ---- */
+
+static const ParsedCamera *find_named(Sdl *sdl, const char *name)
+{
+    const ParsedCamera *camera = builder_of(sdl)->cameras;
+    while (camera && strcmp(camera->name, name) != 0)
+        camera = camera->next;
+    return camera;
+}
+
+static _Noreturn void no_such_camera(Sdl *sdl, const char *name)
+{
+    const Scene *scene = sdl_scene(sdl);
+    const char *names[64];
+    char meant[RETEX_MEANT_SIZE];
+    int count = 0;
+    for (int k = 0; k < scene->ncameras && count < 64; k++)
+        names[count++] = scene->cameras[k].name;
+    sdl_error(sdl, "no camera is declared as `%.100s`%s", name,
+              retex_meant(retex_nearest_of(name, names, count), meant));
+}
+
+static void use_view(Sdl *sdl, const CameraView *view)
+{
+    const SdlOptions *options = sdl_options(sdl);
+    Camera *camera = &sdl_scene(sdl)->camera;
+    const double own = vec_length(camera->right) / vec_length(camera->up);
+    *camera = camera_look(camera, view,
+                          options->width > 0 && options->height > 0 ? (double)options->width / options->height : own);
+    builder_of(sdl)->bokeh = NULL;
+    picture_size(sdl, camera);
+}
+
+static void list_named(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    int count = 0, k;
+    for (const ParsedCamera *camera = builder_of(sdl)->cameras; camera; camera = camera->next)
+        count += find_named(sdl, camera->name) == camera;
+    scene->cameras = sdl_alloc(sdl, (size_t)(count + 1) * sizeof *scene->cameras);
+    scene->ncameras = k = count;
+    for (const ParsedCamera *camera = builder_of(sdl)->cameras; camera; camera = camera->next)
+        if (find_named(sdl, camera->name) == camera)
+            scene->cameras[--k] = (NamedCamera){camera->name, camera->camera};
+}
+
+void camera_choose(Sdl *sdl)
+{
+    const char *asked = sdl_options(sdl)->camera;
+    CameraView view;
+    list_named(sdl);
+    if (!asked)
+        return;
+    const ParsedCamera *named = find_named(sdl, asked);
+    if (named)
+        camera_use(sdl, named);
+    else if (camera_view_read(&view, asked, NULL))
+        no_such_camera(sdl, asked);
+    else
+        use_view(sdl, &view);
 }
 
 void camera_finish(Sdl *sdl)

@@ -349,6 +349,7 @@ void finalize_scene(Sdl *sdl)
 {
     if (sdl_scene(sdl)->width == 0)
         camera_use(sdl, &builder_of(sdl)->camera);
+    camera_choose(sdl);
     build_sky(sdl);
     gather_triangles(sdl);
     complete_prototypes(sdl);

@@ -27,10 +27,11 @@ typedef struct SdlOptions {
     int nthreads;        /* that images are read on; 0 = all cores */
     int safe;            /* 1: untrusted scene: safe access (retex/access.h), current folder excluded */
     int accept_damaged;  /* 1: damaged pictures are read as far as possible, with a warning */
+    const char *camera;  /* instead of the scene's: a view as of camera/view.h, or one that is #declared; or NULL */
 } SdlOptions;
 #define SDL_OPTIONS_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0, 0                 \
+        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0, 0, 0              \
     }
 
 #endif
