@@ -14,6 +14,8 @@
 #include <retex/host/half.h>
 #include "json_text.h"
 #include "render/live.h"
+#include "render/surfaces.h"
+#include "render/uv_scale.h"
 #include "retex-render.h"
 
 enum { LINE_SIZE = 1024, WORDS_MAX = 8 };
@@ -90,6 +92,8 @@ static void greet(const Live *l)
     print_point("at", live_middle(l->render));
     printf(",\"angle\":%.9g,", camera_angle(&scene->camera));
     print_point("up", vec_normalize(scene->camera.sky));
+    putchar(',');
+    print_point("right", vec_normalize(scene->camera.right));
     print_bounds(l);
     printf("}");
     print_cameras(scene);
@@ -165,12 +169,96 @@ static int request_stop(Live *l, char **words, RetexError *err)
     return RETEX_OK;
 }
 
+static void print_surfaces(const Surfaces *all)
+{
+    static const char *const scopes[] = {
+        [SCOPE_OBJECT] = "object", [SCOPE_MATERIAL] = "material", [SCOPE_FLAT] = "flat", [SCOPE_LEVEL] = "level"};
+    printf("{\"surfaces\":[");
+    for (int k = 0; k < all->count; k++) {
+        const SeenSurface *one = &all->list[k];
+        printf("%s{\"kind\":\"%s\",\"text\":", k ? "," : "", scopes[one->scope]);
+        json_text(stdout, one->text);
+        printf(",\"name\":");
+        json_text(stdout, one->name ? one->name : "");
+        printf(",\"share\":%.6g}", one->share);
+    }
+    printf("]");
+}
+
+static int request_surfaces(Live *l, char **words, RetexError *err)
+{
+    RetexBudget *budget = l->arguments->cli->budget;
+    Surfaces all;
+    int code = look(l, words, err);
+    if (code)
+        return code;
+    const FirstHitWindow window = live_window(l->render);
+    if ((code = surfaces_find(&all, &window, budget, err)))
+        return code;
+    print_surfaces(&all);
+    printf(",\"width\":%d,\"height\":%d", window.w, window.h);
+    end_answer(l, all.planes, SURFACE_SCOPES * (size_t)window.w * (size_t)window.h * sizeof *all.planes);
+    surfaces_close(&all, budget);
+    return RETEX_OK;
+}
+
+/* u and v in metres, where a unit of them has a length. */
+static void measure(const FirstHitWindow *w, const double units[][2], const uint16_t *targets, float *u, float *v)
+{
+    for (size_t k = 0; k < (size_t)w->w * (size_t)w->h; k++) {
+        const double *unit = targets[k] ? units[targets[k] - 1] : NULL;
+        if (unit && unit[0] > 0 && unit[1] > 0)
+            u[k] = (float)((double)u[k] * unit[0]), v[k] = (float)((double)v[k] * unit[1]);
+    }
+}
+
+static void print_units(const Scene *scene, const double units[][2])
+{
+    printf("{\"uv\":[");
+    for (int t = 0; t < scene->ntargets; t++) {
+        printf("%s{\"target\":", t ? "," : "");
+        json_text(stdout, scene->targets[t].name);
+        printf(",\"unit\":[%.9g,%.9g]}", units[t][0], units[t][1]);
+    }
+    printf("]");
+}
+
+static int request_uv(Live *l, char **words, RetexError *err)
+{
+    double units[RETEX_MAX_TARGETS][2];
+    int code = look(l, words, err);
+    const FirstHitWindow w = live_window(l->render);
+    if (!code)
+        code = uv_scale_measure(l->scene, w.accel, units, err);
+    if (code)
+        return code;
+    const size_t pixels = (size_t)w.w * (size_t)w.h, bytes = pixels * (sizeof(uint16_t) + 2 * sizeof(float));
+    uint16_t *targets = malloc(bytes);
+    if (!targets)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for UV");
+    float *u = l->rgb, *v = u + pixels; /* there is room for a picture */
+    for (int t = 0; t < l->scene->ntargets; t++)
+        for (int k = 0; k < 2; k++)
+            units[t][k] *= l->arguments->render.unit;
+    surfaces_uv(&w, targets, u, v);
+    measure(&w, (const double(*)[2])units, targets, u, v);
+    memcpy(targets + pixels, u, 2 * pixels * sizeof *u);
+    print_units(l->scene, (const double(*)[2])units);
+    printf(",\"width\":%d,\"height\":%d", w.w, w.h);
+    end_answer(l, targets, bytes);
+    free(targets);
+    return RETEX_OK;
+}
+
 static const struct Request {
     const char *name;
     int nwords; /* after it */
     const char *usage;
     int (*answer)(Live *live, char **words, RetexError *err);
-} requests[] = {{"view", 4, "view WIDTH HEIGHT CAMERA SPP", request_view}, {"stop", 0, "stop", request_stop}};
+} requests[] = {{"view", 4, "view WIDTH HEIGHT CAMERA SPP", request_view},
+                {"surfaces", 3, "surfaces WIDTH HEIGHT CAMERA", request_surfaces},
+                {"uv", 3, "uv WIDTH HEIGHT CAMERA", request_uv},
+                {"stop", 0, "stop", request_stop}};
 
 static int answer_line(Live *l, char *line, RetexError *err)
 {

@@ -1,0 +1,34 @@
+/* What can be a target, pixel by pixel: by each scope (scene/selector.h) the text that a click there would take. */
+#ifndef RENDERER_RENDER_SURFACES_H
+#define RENDERER_RENDER_SURFACES_H
+
+#include "render/first_hit.h"
+
+enum { SURFACE_SCOPES = 4, SURFACES_MAX = 65535 };
+
+typedef struct SeenSurface {
+    char *text;         /* selects it */
+    SelectorScope scope;
+    const char *name;   /* of the material, or of the object; or NULL */
+    double share;       /* of the picture */
+} SeenSurface;
+
+typedef struct Surfaces {
+    int count;
+    SeenSurface *list;
+    uint16_t *planes; /* by scope, in the order of surface_scopes, and pixel: 1 + the index of what is taken, or 0 */
+    uint64_t charged;
+} Surfaces;
+
+extern const SelectorScope surface_scopes[SURFACE_SCOPES]; /* material, object, flat, level */
+
+/* By the rays through the pixels' centres. A target of a surface's text has the pixels that its plane shows. What has
+ * no faces has neither flat ones nor a level; levels are found for the faces that are seen most, the largest first, and
+ * a face belongs to the first one that has it. */
+int surfaces_find(Surfaces *surfaces, const FirstHitWindow *window, RetexBudget *budget, RetexError *err);
+void surfaces_close(Surfaces *surfaces, RetexBudget *budget);
+
+/* Where textures go: by pixel 1 + the target that is seen most at its centre, or 0, and its UV. */
+void surfaces_uv(const FirstHitWindow *window, uint16_t *targets, float *u, float *v);
+
+#endif
