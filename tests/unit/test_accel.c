@@ -399,7 +399,7 @@ static void rays_see_what_they_may(void **state)
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 3 && fabs(hit.t - 2) < 1e-15);
     assert_false(accel_intersect(accel, &ray, RAY_BOUNCE, &hit));
     assert_int_equal(hit.primitive, -1);
-    accel_bounds(accel, &low, &high);
+    accel_bounds(accel, scene.camera.location, &low, &high);
     assert_true(low.x == -1 && high.z == 8 && low.z == 0);
     accel_close(&accel);
     accel_close(&accel);
