@@ -35,7 +35,7 @@ $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.
 SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif hints)
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
-$(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/serve/%.o,address clients head peers)
+$(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/%.o,serve/address serve/clients http/head serve/peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
 	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work names kept content decoding images rooms uploads)
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \

@@ -130,8 +130,9 @@ $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(EMBREE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
-# retex-serve alone uses libmicrohttpd and Nettle.
-SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c))
+# retex-serve and retex-studio use libmicrohttpd; tools/http is what they share. retex-serve alone uses Nettle.
+HTTP_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/http/*.c))
+SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c)) $(HTTP_OBJECTS)
 $(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)

@@ -13,7 +13,7 @@
 
 #include "serve/address.h"
 #include "serve/clients.h"
-#include "serve/head.h"
+#include "http/head.h"
 #include "serve/peers.h"
 
 /* ---- addresses ---- */

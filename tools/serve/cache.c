@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hash.h"
+#include "http/hash.h"
 
 enum { CHAINS = 4096, LARGEST_SHARE = 8 };
 

@@ -12,7 +12,7 @@
 
 #include <retex/clock.h>
 
-#include "hash.h"
+#include "http/hash.h"
 
 enum {
     SLOTS = 4096,            /* a newer content takes the place of an older one */

@@ -10,11 +10,11 @@
 #include <retex/clock.h>
 
 #include "exchange.h"
-#include "head.h"
+#include "http/head.h"
 #include "headers.h"
 #include "hints.h"
 #include "iiif.h"
-#include "listen.h"
+#include "http/listen.h"
 #include "log.h"
 #include "picture.h"
 #include "status.h"

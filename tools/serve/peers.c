@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "hash.h"
+#include "http/hash.h"
 
 enum { CHAINS = 1024, UPLOADS_SHARE = 8 };
 

@@ -9,7 +9,7 @@
 #include <retex/edit.h>
 #include <retex/version.h>
 
-#include "hash.h"
+#include "http/hash.h"
 #include "json_text.h"
 #include "picture.h"
 #include "thumbnail.h"

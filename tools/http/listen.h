@@ -1,6 +1,6 @@
 /* The socket on which the server listens. */
-#ifndef RETEX_SERVE_LISTEN_H
-#define RETEX_SERVE_LISTEN_H
+#ifndef RETEX_HTTP_LISTEN_H
+#define RETEX_HTTP_LISTEN_H
 
 #include <retex/error.h>
 

@@ -3,8 +3,8 @@
  * Content-Length, names with spaces, lines that are continued, and ends values at a NUL. Strings of a head that it has
  * understood lie in its buffer one after the other, with nothing between them but what divides them, so that whatever
  * was left out or moved shows as a gap. */
-#ifndef RETEX_SERVE_HEAD_H
-#define RETEX_SERVE_HEAD_H
+#ifndef RETEX_HTTP_HEAD_H
+#define RETEX_HTTP_HEAD_H
 
 #include <stddef.h>
 

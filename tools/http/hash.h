@@ -1,7 +1,7 @@
 /* FNV-1a hashes, of 64 bits, and of 128 for entity tags. They find changes; they are not made for adversaries, so that
  * whoever compares hashes of what strangers chose compares the whole as well. */
-#ifndef RETEX_SERVE_HASH_H
-#define RETEX_SERVE_HASH_H
+#ifndef RETEX_HTTP_HASH_H
+#define RETEX_HTTP_HASH_H
 
 #include <stddef.h>
 #include <stdint.h>
