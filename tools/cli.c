@@ -591,7 +591,9 @@ void cli_take_progress(Cli *cli)
 void cli_progress(const Cli *cli, const char *label, double done)
 {
     static double started = -1, drawn;
-    const int json = cli->json_progress, terminal = !json && isatty(STDERR_FILENO);
+    const char *form = getenv("RETEX_PROGRESS");
+    const int json = cli->json_progress || (form && strcmp(form, "json") == 0);
+    const int terminal = !json && isatty(STDERR_FILENO);
     if (!json && (cli->quiet || (!terminal && !cli->verbose)))
         return;
     double now = retex_clock_seconds();

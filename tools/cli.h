@@ -160,9 +160,9 @@ int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memo
 void cli_take_progress(Cli *cli);
 
 /* Show progress on stderr. On a terminal and without -q: a bar with the elapsed and the remaining time. Elsewhere with
- * -v: a line every 30 seconds. With --progress json: one object per second, {"stage": label, "fraction": done,
- * "seconds": …}. `done` is 0..1; `label` for instance "render". Call with 1 to finish the line. The output is
- * rate-limited; one thread may call often. */
+ * -v: a line every 30 seconds. With --progress json, or RETEX_PROGRESS=json, which leaves messages as they are: one
+ * object per second, {"stage": label, "fraction": done, "seconds": …}. `done` is 0..1; `label` for instance "render".
+ * Call with 1 to finish the line. The output is rate-limited; one thread may call often. */
 void cli_progress(const Cli *cli, const char *label, double done);
 
 /* Write the answer to the file of -o, flush and close stdout. Exit with CLI_FAIL if that fails, for instance on a full

@@ -252,8 +252,18 @@ static uint64_t write_rights(int version)
     return MAY_WRITE_FILE | MAY_CHANGE_NAMES | (version >= 2 ? MAY_REFER : 0) | (version >= 3 ? MAY_TRUNCATE : 0);
 }
 
+/* Allow what is handled below a path; of a file, what goes for files. */
+static int allow_below(int set, const char *path, uint64_t rights)
+{
+    struct beneath rule = {rights, open(path, O_PATH | O_CLOEXEC)};
+    const int is_done = rule.folder >= 0 && syscall(__NR_landlock_add_rule, set, RULE_BENEATH, &rule, 0) == 0;
+    if (rule.folder >= 0)
+        close(rule.folder);
+    return is_done;
+}
+
 /* Forbid what is handled but below a folder, or everywhere. */
-static int restrict_files(int may_read, const char *folder)
+static int restrict_files(int may_read, const char *folder, const char *device)
 {
     const int version = (int)syscall(__NR_landlock_create_ruleset, NULL, 0, 1);
     if (version < 1)
@@ -265,24 +275,27 @@ static int restrict_files(int may_read, const char *folder)
     const int set = (int)syscall(__NR_landlock_create_ruleset, &rules, size, 0);
     if (set < 0)
         return 0;
-    struct beneath rule = {write_rights(version), folder ? open(folder, O_PATH | O_CLOEXEC) : -1};
-    int is_done = !folder || (rule.folder >= 0 && syscall(__NR_landlock_add_rule, set, RULE_BENEATH, &rule, 0) == 0);
-    is_done =
-        is_done && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && syscall(__NR_landlock_restrict_self, set, 0) == 0;
-    if (rule.folder >= 0)
-        close(rule.folder);
+    const int is_done =
+        (!folder || allow_below(set, folder, write_rights(version))) &&
+        (!device || allow_below(set, device, write_rights(version) & (MAY_WRITE_FILE | MAY_TRUNCATE))) &&
+        prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && syscall(__NR_landlock_restrict_self, set, 0) == 0;
     close(set);
     return is_done;
 }
 
 int confine_to_open_files(void)
 {
-    const int files = restrict_files(0, NULL); /* first: the filter forbids it */
+    const int files = restrict_files(0, NULL, NULL); /* first: the filter forbids it */
     return (files ? CONFINE_FILES : 0) | (allow_open_files() ? CONFINE_CALLS : 0);
 }
 
 int confine_to_folder(const char *folder)
 {
-    const int files = restrict_files(1, folder);
+    const int files = restrict_files(1, folder, NULL);
     return (files ? CONFINE_FILES : 0) | (allow_files() ? CONFINE_CALLS : 0);
+}
+
+int confine_writes_to(const char *folder)
+{
+    return restrict_files(1, folder, "/dev/null") ? CONFINE_FILES : 0; /* decoders get it as standard error */
 }

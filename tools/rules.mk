@@ -141,6 +141,25 @@ $(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(SERVE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
+# retex-studio has the files of its page inside, as bytes.
+STUDIO_PAGE := $(wildcard tools/studio/web/*.html tools/studio/web/*.css tools/studio/web/*.js)
+$(BUILD)/gen/studio_page.c: $(STUDIO_PAGE) tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY){ echo '#include "studio/page.h"'; number=0; for file in $(STUDIO_PAGE); do number=$$((number + 1)); \
+	    echo "static const unsigned char file$$number[] = {"; od -An -v -tx1 $$file | sed 's/ \(..\)/0x\1,/g'; \
+	    echo '};'; done; echo 'const PageFile studio_page[] = {'; number=0; \
+	    for file in $(STUDIO_PAGE); do number=$$((number + 1)); \
+	    echo "{\"$${file##*/}\", file$$number, sizeof file$$number},"; done; echo '{NULL, NULL, 0}};'; } >$@
+$(BUILD)/obj/gen/studio_page.o: $(BUILD)/gen/studio_page.c
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+STUDIO_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/studio/*.c)) $(HTTP_OBJECTS) \
+	$(BUILD)/obj/tools/confine.o $(BUILD)/obj/gen/studio_page.o
+$(BUILD)/bin/retex-studio: $(BUILD)/obj/tools/retex-studio.o $(STUDIO_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)
+$(BUILD)/obj/tools/studio/%.o $(BUILD)/obj/tools/retex-studio.o: CPPFLAGS_ALL += $(SERVE_CFLAGS) $(LIBRETEX_CFLAGS)
+
 # systemd looks into this folder, whatever LIBDIR is: the `./` keeps it below PREFIX.
 UNIT_PLACE := ./lib/systemd/system/
 BRIDGE_PLACE := $(or $(BRIDGE_FOLDER:$(LIBDIR)/%=lib/%),lib)

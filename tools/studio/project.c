@@ -1,0 +1,142 @@
+/* See project.h. */
+#include "project.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <retex/output_file.h>
+
+#include "http/hash.h"
+
+void project_open(Project *project, Changes *changes)
+{
+    *project = (Project){.changes = changes};
+    pthread_mutex_init(&project->writing, NULL);
+}
+
+void project_close(Project *project)
+{
+    pthread_mutex_destroy(&project->writing);
+}
+
+/* Two hashes from different beginnings: as long as one of 128 bits. */
+static void make_etag(const char *text, size_t bytes, char etag[PROJECT_ETAG])
+{
+    const uint64_t a = hash_bytes(HASH_BEGIN, text, bytes), b = hash_bytes(~HASH_BEGIN, text, bytes);
+    snprintf(etag, PROJECT_ETAG, "\"%016llx%016llx\"", (unsigned long long)a, (unsigned long long)b);
+}
+
+static int read_file(int file, char **text, size_t *bytes, RetexError *err)
+{
+    ssize_t got = 1;
+    if (!(*text = malloc(PROJECT_BYTES + 1)))
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory");
+    for (*bytes = 0; got > 0 && *bytes <= PROJECT_BYTES; *bytes += got > 0 ? (size_t)got : 0)
+        do
+            got = read(file, *text + *bytes, PROJECT_BYTES + 1 - *bytes);
+        while (got < 0 && errno == EINTR);
+    if (got < 0)
+        return retex_fail(err, RETEX_EIO, "cannot read the project: %s", strerror(errno));
+    if (*bytes > PROJECT_BYTES)
+        return retex_fail(err, RETEX_ELIMIT, "the project has more than %d MB", PROJECT_BYTES >> 20);
+    return RETEX_OK;
+}
+
+int project_read(const Model *model, char **text, size_t *bytes, char etag[PROJECT_ETAG], RetexError *err)
+{
+    struct stat info;
+    *text = NULL;
+    *etag = 0;
+    if (!model)
+        return retex_fail(err, RETEX_ENOTFOUND, "no model is open");
+    const int file = open(model->project, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0 && errno == ENOENT)
+        return retex_fail(err, RETEX_ENOTFOUND, "there is no project yet");
+    if (file < 0 || fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
+        const int code = retex_fail(err, RETEX_EIO, "cannot read the project %s", model->project);
+        if (file >= 0)
+            close(file);
+        return code;
+    }
+    const int code = read_file(file, text, bytes, err);
+    close(file);
+    if (code) {
+        free(*text);
+        *text = NULL;
+        return code;
+    }
+    make_etag(*text, *bytes, etag);
+    return RETEX_OK;
+}
+
+static int check_json(const char *text, size_t bytes, RetexError *err)
+{
+    json_error_t fault;
+    json_t *root = json_loadb(text, bytes, JSON_REJECT_DUPLICATES, &fault);
+    const int is_right = json_is_object(root);
+    json_decref(root);
+    return is_right ? RETEX_OK
+                    : retex_fail(err, RETEX_EPARSE, "a project is an object of JSON%s%s", root ? "" : ": ",
+                                 root ? "" : fault.text);
+}
+
+/* The content of now is the one that the window has seen. */
+static int check_seen(const Model *model, const char *seen, RetexError *err)
+{
+    char *text, now[PROJECT_ETAG];
+    size_t bytes;
+    RetexError why = {0};
+    const int code = project_read(model, &text, &bytes, now, &why);
+    free(text);
+    if (code && code != RETEX_ENOTFOUND)
+        return retex_fail(err, code, "%s", why.message);
+    if (code ? seen != NULL : !seen || strcmp(seen, now) != 0)
+        return retex_fail(err, RETEX_EACCESS, "another window has changed the project");
+    return RETEX_OK;
+}
+
+static void note(Project *project, const Model *model, const char *etag)
+{
+    changes_lock(project->changes);
+    if (project->model != model || strcmp(project->etag, etag) != 0) {
+        project->model = model;
+        snprintf(project->etag, sizeof project->etag, "%s", etag);
+        project->changed = changes_note(project->changes);
+    }
+    changes_unlock(project->changes);
+}
+
+int project_write(Project *project, const Model *model, const char *text, size_t bytes, const char *seen,
+                  char etag[PROJECT_ETAG], RetexError *err)
+{
+    int code = model ? check_json(text, bytes, err) : retex_fail(err, RETEX_EINVAL, "no model is open");
+    if (code)
+        return code;
+    pthread_mutex_lock(&project->writing);
+    code = check_seen(model, seen, err);
+    if (!code)
+        code = retex_file_write(model->project, text, bytes, err);
+    if (!code) {
+        make_etag(text, bytes, etag);
+        note(project, model, etag);
+    }
+    pthread_mutex_unlock(&project->writing);
+    return code;
+}
+
+void project_look(Project *project, const Model *model)
+{
+    char *text, etag[PROJECT_ETAG];
+    size_t bytes;
+    pthread_mutex_lock(&project->writing); /* not in the middle of a window's change */
+    (void)project_read(model, &text, &bytes, etag, NULL);
+    free(text);
+    note(project, model, etag);
+    pthread_mutex_unlock(&project->writing);
+}

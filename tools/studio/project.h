@@ -1,0 +1,30 @@
+/* The project's file: its JSON is the window's business. What is kept here is that no window overwrites what it has not
+ * seen, whoever has written it. */
+#ifndef RETEX_STUDIO_PROJECT_H
+#define RETEX_STUDIO_PROJECT_H
+
+#include "places.h"
+
+enum { PROJECT_ETAG = 40, PROJECT_BYTES = 4 << 20 };
+
+typedef struct Project {
+    Changes *changes;
+    pthread_mutex_t writing; /* one window after the other */
+    char etag[PROJECT_ETAG]; /* of the content that was seen last; "": no file; guarded by the lock of changes */
+    const Model *model;      /* whose it is */
+    uint64_t changed;
+} Project;
+
+void project_open(Project *project, Changes *changes);
+void project_close(Project *project);
+
+/* The content, which the caller frees, and its entity tag. RETEX_ENOTFOUND: there is none yet. */
+int project_read(const Model *model, char **text, size_t *bytes, char etag[PROJECT_ETAG], RetexError *err);
+/* Write the content if the one that is there has the entity tag `seen`; NULL: if there is none. RETEX_EACCESS: another
+ * one is there. RETEX_EPARSE: this is no JSON object. etag gets the new one. */
+int project_write(Project *project, const Model *model, const char *text, size_t bytes, const char *seen,
+                  char etag[PROJECT_ETAG], RetexError *err);
+/* Look at the file: windows are told if it has changed. */
+void project_look(Project *project, const Model *model);
+
+#endif
