@@ -25,7 +25,7 @@ typedef struct Commands {
 
 /* The order in which the list shows them; what is not here comes last, by name. */
 static const char *const order[] = {"import", "render", "denoise", "sample", "combine",
-                                    "pack",   "info",   "diff",    "serve"};
+                                    "pack",   "info",   "diff",    "serve",  "studio"};
 static const int norder = sizeof order / sizeof *order;
 
 static Cli cli = {.tool = "retex"};

@@ -1,0 +1,361 @@
+# What studio.t asks of retex-studio: starts it, runs the checks of the functions that are named, each with a server and
+# a folder of its own, and prints what differs, and at last the name of the function.
+import http.client, json, os, re, shutil, signal, socket, subprocess, sys, tempfile, threading, time
+
+SCENE = '''camera { location <0, 1, -3> look_at <0, 1, 0> angle 50 }
+light_source { <1, 3, -2> color rgb 2 }
+#declare Floor = texture { pigment { color rgb <.5, .4, .3> } }
+plane { y, 0 texture { Floor } }
+sphere { <0, 1, 0>, .7 pigment { color rgb .6 } }
+'''
+
+
+class Server:
+    def __init__(self, *options, folder=None, environment=None):
+        self.folder = folder or tempfile.mkdtemp(dir='.')
+        if not os.path.exists(f'{self.folder}/room.pov'):
+            open(f'{self.folder}/room.pov', 'w').write(SCENE)
+        os.makedirs(f'{self.folder}/home', exist_ok=True)
+        address = f'{self.folder}/address'
+        if os.path.exists(address):
+            os.remove(address)
+        self.process = subprocess.Popen(
+            ['retex-studio', 'room.pov', '--no-browser', '-o', 'address', *options], cwd=self.folder,
+            env={**os.environ, 'HOME': os.path.abspath(self.folder) + '/home', **(environment or {})},
+            stderr=open(f'{self.folder}/log', 'w'))
+        for _ in range(1000):
+            if os.path.exists(address):
+                break
+            time.sleep(.01)
+        else:
+            sys.exit('no server: ' + open(f'{self.folder}/log').read())
+        self.port, self.token = re.fullmatch(r'http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n',
+                                             open(address).read()).groups()
+        self.port = int(self.port)
+
+    def ask(self, path, method='GET', body=None, whole=None, **headers):
+        connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=60)
+        if isinstance(body, dict):
+            body = json.dumps(body)
+        connection.request(method, whole or f'/{self.token}/{path}', body,
+                           {name.replace('_', '-'): value for name, value in headers.items()})
+        answer = connection.getresponse()
+        answer.body = answer.read()
+        connection.close()
+        return answer
+
+    def json(self, *arguments, **options):
+        return json.loads(self.ask(*arguments, **options).body)
+
+    def job(self, *args, tool='retex-render'):
+        return self.json('api/jobs', 'POST', {'tool': tool, 'args': args, 'label': 'a job'}).get('job')
+
+    def wait(self, number, states=('done', 'failed', 'stopped'), seconds=120):
+        until = time.time() + seconds
+        while time.time() < until:
+            job = [job for job in self.json('api/jobs') if job['job'] == number][0]
+            if job['state'] in states:
+                return job
+            time.sleep(.02)
+        sys.exit(f'job {number} is {job}')
+
+    def end(self):
+        self.process.send_signal(signal.SIGTERM)
+        expect('exit status', self.process.wait(60), 0)
+
+
+def expect(what, got, wanted):
+    if got != wanted:
+        print(f'{what}: {got!r}, not {wanted!r}')
+
+
+def status(server, *arguments, **options):
+    return server.ask(*arguments, **options).status
+
+
+RENDER = ['room.pov', '--size', '160x120', '-t', 'Floor']
+
+
+# ---- who may ask ----
+
+def gate(server):
+    token, port = server.token, server.port
+    expect('the page', status(server, ''), 200)
+    expect('localhost', status(server, '', Host=f'localhost:{port}', Origin=f'http://localhost:{port}'), 200)
+    for what, options in (('no token', {'whole': '/'}), ('another token', {'whole': f'/{"0" * 32}/api/state'}),
+                          ('a part of it', {'whole': f'/{token[:31]}/api/state'}),
+                          ('more of it', {'whole': f'/{token}0/api/state'}),
+                          ('another name', {'Host': 'evil.example'}), ('another port', {'Host': f'127.0.0.1:{port + 1}'}),
+                          ('another page', {'Origin': 'http://evil.example'}), ('a page of a file', {'Origin': 'null'}),
+                          ('another scheme', {'Origin': f'https://127.0.0.1:{port}'})):
+        expect(what, status(server, 'api/state', **options), 403)
+    expect('quit by another page', status(server, 'api/quit', 'POST', Origin='http://evil.example'), 403)
+    for head in f'Host: 127.0.0.1:{port}\r\nHost: 127.0.0.1:{port}\r\n', '':
+        with socket.create_connection(('127.0.0.1', port), 10) as raw:
+            raw.sendall(f'GET /{token}/api/state HTTP/1.1\r\n{head}Connection: close\r\n\r\n'.encode())
+            expect('hosts', raw.recv(12)[9:], b'400')
+    expect('another method', status(server, 'api/state', 'POST'), 405)
+    expect('another address', status(server, 'api/nothing'), 404)
+
+
+# ---- files ----
+
+def roots(server):
+    """Nothing outside of the folders is read, wherever paths and links lead."""
+    os.makedirs(f'{server.folder}/room.studio/page')
+    os.makedirs(f'{server.folder}/home/.ssh', exist_ok=True)
+    open(f'{server.folder}/home/.ssh/id', 'w').write('secret')
+    open(f'{server.folder}/room.studio/page/room.json', 'w').write('0123456789')
+    os.symlink('/etc/passwd', f'{server.folder}/room.studio/passwd')
+    os.symlink('/etc', f'{server.folder}/room.studio/etc')
+    answer = server.ask('files/room.studio/page/room.json')
+    expect('a file', (answer.status, answer.body, answer.headers['Content-Type']),
+           (200, b'0123456789', 'application/json'))
+    expect('unchanged', status(server, 'files/room.studio/page/room.json', If_None_Match=answer.headers['ETag']), 304)
+    for range_of, wanted in ('2-4', (206, b'234')), ('7-', (206, b'789')), ('-3', (206, b'789')), ('4-99', (206, b'456789')):
+        part = server.ask('files/room.studio/page/room.json', Range='bytes=' + range_of)
+        expect(range_of, (part.status, part.body), wanted)
+    expect('no such part', status(server, 'files/room.studio/page/room.json', Range='bytes=10-'), 416)
+    for path in ('room.pov', 'room.studio/passwd', 'room.studio/etc/passwd', '/etc/passwd', 'room.studio/../room.pov',
+                 'room.studio/%2e%2e/room.pov', 'room.studio/page/../../address', '/proc/self/environ'):
+        expect('files/' + path, status(server, 'files/' + path), 403)
+    expect('no file', status(server, 'files/room.studio/none'), 404)
+    home = os.path.abspath(server.folder) + '/home'
+    for path in '/etc', home + '/.ssh', '..', 'room.studio/etc', '/':
+        expect('list of ' + path, status(server, 'api/folder?path=' + path), 403)
+        expect('thumbnail of ' + path, status(server, 'api/thumb?path=' + path + '/x.png'), 403)
+        expect('opening ' + path, status(server, 'api/open', 'POST', {'path': path + '/x.pov'}), 403)
+    kinds = {entry['name']: (entry['kind'], entry['path']) for entry in server.json('api/folder')['entries']}
+    expect('scene', kinds['room.pov'], ('scene', 'room.pov'))
+    expect('page', server.json('api/folder?path=room.studio')['entries'][-1]['kind'] in ('page', 'file'), True)
+
+
+def uploads(server):
+    send = lambda name, body: server.ask('api/upload?name=' + name, 'POST', body)
+    path = lambda answer: json.loads(answer.body).get('path')
+    expect('a file', path(send('oak.jpg', b'oak')), 'room.studio/files/oak.jpg')
+    expect('again', path(send('oak.jpg', b'oak')), 'room.studio/files/oak.jpg')
+    expect('another', path(send('oak.jpg', b'elm')), 'room.studio/files/oak-2.jpg')
+    expect('upwards', path(send('..%2F..%2F.ssh/%00id', b'x'))[:18], 'room.studio/files/')
+    expect('folders', path(send('a/../b\\c:d.png', b'x')), 'room.studio/files/a/b/c_d.png')
+    expect('no name', send('..', b'x').status, 422)
+    expect('too large', status(server, 'api/upload?name=x', 'POST', b'', Content_Length=str(1 << 40)), 413)
+    os.symlink('/tmp', f'{server.folder}/room.studio/files/out')
+    expect('through a link', send('out/x', b'x').status, 403)
+    expect('a model', path(server.ask('api/upload?name=m.pov&as=model', 'POST', SCENE)),
+           'home/retex-studio/m.pov')
+    with socket.create_connection(('127.0.0.1', server.port), 10) as raw: # a window that is closed
+        raw.sendall(f'POST /{server.token}/api/upload?name=half HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n'
+                    'Content-Length: 1000\r\n\r\nhalf'.encode())
+    time.sleep(.3)
+    expect('what is left', [name for name in os.listdir(f'{server.folder}/room.studio/files')
+                            if 'half' in name or name.startswith('.')], [])
+
+
+def thumbs(server):
+    for name, wanted in ('red.png', 200), ('broken.png', 422), ('none.png', 404):
+        if wanted == 200:
+            subprocess.run(['make_picture', f'{server.folder}/{name}', 'size=600x300'], check=True)
+        elif wanted == 422:
+            open(f'{server.folder}/{name}', 'w').write('no picture')
+        answer = server.ask(f'api/thumb?path={name}&size=64')
+        expect(name, answer.status if wanted == 200 else answer.status >= 400, wanted if wanted == 200 else True)
+        if wanted == 200:
+            expect('JPEG', answer.body[:2], b'\xff\xd8')
+            expect('again', status(server, f'api/thumb?path={name}&size=64', If_None_Match=answer.headers['ETag']), 304)
+    expect('size', status(server, 'api/thumb?path=red.png&size=5000'), 400)
+
+
+def full(server):
+    """A disk that is full: the error says so and nothing is left."""
+    server.end()
+    server.__init__(folder=server.folder, environment={})
+    import resource
+    resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (100000, 100000))
+    answer = server.ask('api/upload?name=large', 'POST', b'x' * 300000)
+    expect('large', (answer.status, json.loads(answer.body)), (507, {'error': 'the disk is full: the file was not kept'}))
+    expect('what is left', os.listdir(f'{server.folder}/room.studio/files'), [])
+    answer = server.ask('api/project', 'PUT', json.dumps({'x': 'x' * 200000}), If_None_Match='*')
+    expect('project', (answer.status, [name for name in os.listdir(server.folder) if 'json' in name]), (507, []))
+    expect('small', status(server, 'api/upload?name=small', 'POST', b'x'), 200)
+
+
+# ---- the project ----
+
+def project(server):
+    put = lambda text, **headers: server.ask('api/project', 'PUT', text, **headers)
+    expect('none', status(server, 'api/project'), 404)
+    expect('no condition', put('{}').status, 428)
+    expect('no object', put('[1]', If_None_Match='*').status, 422)
+    expect('no JSON', put('{', If_None_Match='*').status, 422)
+    first = put('{"a":1}', If_None_Match='*')
+    expect('first', first.status, 200)
+    expect('first again', put('{"a":2}', If_None_Match='*').status, 412)
+    second = put('{"a":2}', If_Match=first.headers['ETag'])
+    expect('second', second.status, 200)
+    answer = put('{"a":3}', If_Match=first.headers['ETag'])
+    expect('old', (answer.status, json.loads(answer.body)), (412, {'error': 'another window has changed the project'}))
+    now = server.ask('api/project')
+    expect('now', (now.body, now.headers['ETag']), (b'{"a":2}', second.headers['ETag']))
+    open(f'{server.folder}/room.studio.json', 'w').write('{"a":4}')
+    expect('changed on disk', put('{"a":5}', If_Match=second.headers['ETag']).status, 412)
+    expect('kept', open(f'{server.folder}/room.studio.json').read(), '{"a":4}')
+    expect('too large', put('', If_None_Match='*', Content_Length=str(5 << 20)).status, 413)
+
+
+def events(server):
+    """What changes on disk is told, and what happens to jobs."""
+    stream = http.client.HTTPConnection('127.0.0.1', server.port, timeout=20)
+    stream.request('GET', f'/{server.token}/api/events')
+    answer = stream.getresponse()
+
+    def until(name):
+        event = None
+        for line in answer:
+            line = line.decode().strip()
+            if line.startswith('event: '):
+                event = line[7:]
+            elif line.startswith('data: ') and event == name:
+                return json.loads(line[6:])
+
+    answer.readline()
+    time.sleep(.3)
+    open(f'{server.folder}/room.pov', 'a').write('// changed\n')
+    expect('model', until('model')['there'], True)
+    open(f'{server.folder}/new', 'w').write('{}')
+    os.rename(f'{server.folder}/new', f'{server.folder}/room.studio.json')
+    while (etag := until('project')['etag']) == '':  # of the beginning
+        pass
+    expect('project', etag, server.ask('api/project').headers['ETag'])
+    number = server.job('room.pov', '--list-targets')
+    expect('job', until('job')['job'], number)
+    os.remove(f'{server.folder}/room.pov')
+    while until('model')['there']:
+        pass
+    stream.close()
+
+
+# ---- jobs ----
+
+def jobs(server):
+    job = server.wait(server.job(*RENDER, '--spp', '4', '-o', 'room.studio/sets/r.exr'))
+    expect('render', (job['state'], job['status'], job['progress'], job['memory'] > 1 << 20), ('done', 0, 1, True))
+    expect('the set', os.path.exists(f'{server.folder}/room.studio/sets/r.exr'), True)
+    expect('small', 'Floor' in server.wait(server.job('room.pov', '--list-targets'))['stdout'], True)
+    for tool in '/bin/sh', 'retex-serve', 'retex-studio', '../bin/retex-render', '':
+        expect(tool, status(server, 'api/jobs', 'POST', {'tool': tool, 'args': []}), 422)
+    for output in (['-o', 'x.exr'], ['-o../x.exr'], ['--output=/tmp/x.exr'], ['--output', 'room.studio/../x.exr'],
+                   ['-qo', 'x.exr']):
+        expect(output, status(server, 'api/jobs', 'POST', {'tool': 'retex-render', 'args': RENDER + output}), 422)
+    outside = server.wait(server.job(*RENDER, '--spp', '1', '-o', 'room.studio/y.exr', '--stats', 'stats.json'))
+    expect('an output that only the kernel sees', (outside['state'], os.path.exists(f'{server.folder}/stats.json')),
+           ('failed', False))
+    expect('args', status(server, 'api/jobs', 'POST', {'tool': 'retex-info', 'args': 'x'}), 422)
+    broken = server.wait(server.job('none.pov'))
+    expect('broken', (broken['state'], broken['status'], len(broken['lines'])), ('failed', 2, 1))
+    expect('no job', status(server, 'api/jobs/999/stop', 'POST'), 404)
+
+
+def killed(server):
+    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.studio/r.exr')
+    server.wait(number, ('running',))
+    time.sleep(.3)
+    children = open(f'/proc/{server.process.pid}/task/{server.process.pid}/children').read().split()
+    os.kill(int(children[0]), signal.SIGKILL)
+    job = server.wait(number)
+    expect('killed', (job['state'], job['status'], job['lines'][-1]),
+           ('failed', 137, 'retex-studio: the program was ended by a signal: Killed'))
+
+
+def resumed(server):
+    """A render that was stopped, by a window or by the server's end, has the same bits as one in one go."""
+    line = ['room.pov', '--size', '320x240', '-t', 'Floor', '--spp', '64']
+    expect('whole', server.wait(server.job(*line, '-o', 'room.studio/whole.exr'))['state'], 'done')
+    line += ['--resume', '-o', 'room.studio/parts.exr']
+
+    def some_progress(number):
+        while not any(job['job'] == number and job['progress'] > .1 for job in server.json('api/jobs')):
+            time.sleep(.05)
+
+    number = server.job(*line)
+    some_progress(number)
+    server.json(f'api/jobs/{number}/stop', 'POST')
+    expect('stopped', server.wait(number)['state'], 'stopped')
+    partial = [name for name in os.listdir(f'{server.folder}/room.studio') if 'partial' in name]
+    expect('rows are kept', len(partial) > 0, True)
+    server.job(*line)
+    time.sleep(1)
+    server.end()
+    server.__init__(folder=server.folder)
+    expect('resumed', server.wait(server.job(*line))['state'], 'done')
+    expect('the same', open(f'{server.folder}/room.studio/parts.exr', 'rb').read() ==
+           open(f'{server.folder}/room.studio/whole.exr', 'rb').read(), True)
+
+
+def crashed(server):
+    """The programs of a server that is killed end; it can be started again."""
+    server.ask('api/project', 'PUT', '{"a":1}', If_None_Match='*')
+    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.studio/r.exr')
+    server.wait(number, ('running',))
+    children = open(f'/proc/{server.process.pid}/task/{server.process.pid}/children').read().split()
+    server.process.kill()
+    server.process.wait()
+    for _ in range(500):
+        if not os.path.exists(f'/proc/{children[0]}') or ') Z ' in open(f'/proc/{children[0]}/stat').read():
+            break
+        time.sleep(.01)
+    else:
+        print('the render runs on')
+    server.__init__(folder=server.folder)
+    expect('project', server.json('api/project'), {'a': 1})
+
+
+# ---- time ----
+
+def processor_time(server):
+    text = open(f'/proc/{server.process.pid}/stat').read().rsplit(')', 1)[1].split()
+    return int(text[11]) + int(text[12])
+
+
+def idle(server):
+    """With a window that listens, the server takes no processor time."""
+    stream = http.client.HTTPConnection('127.0.0.1', server.port, timeout=20)
+    stream.request('GET', f'/{server.token}/api/events')
+    stream.getresponse().readline()
+    time.sleep(1)
+    before = processor_time(server)
+    time.sleep(4)
+    expect('ticks', processor_time(server) - before <= 1, True)
+    stream.close()
+
+
+def busy(server):
+    """Answers come soon while a render takes all cores."""
+    number = server.job(*RENDER, '--spp', '1000000', '-o', 'room.studio/r.exr')
+    server.wait(number, ('running',))
+    time.sleep(.5)
+    times = []
+    for _ in range(40):
+        begin = time.time()
+        server.ask('api/state')
+        times.append(time.time() - begin)
+        time.sleep(.02)
+    if sorted(times)[36] > .1:
+        print(f'answers take {sorted(times)[36]:.3f} s')
+    server.json(f'api/jobs/{number}/stop', 'POST')
+
+
+def quits(server):
+    expect('quit', status(server, 'api/quit', 'POST'), 200)
+    expect('exit status', server.process.wait(30), 0)
+    server.__init__(folder=server.folder)
+
+
+for name in sys.argv[1:]:
+    server = Server()
+    try:
+        globals()[name](server)
+        server.end()
+    finally:
+        server.process.kill()
+    print(name)
