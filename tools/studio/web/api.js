@@ -1,0 +1,76 @@
+/* What the server is asked. All addresses are below the page's own, which has the token. */
+
+export class ServerError extends Error {
+  constructor(message, status) {
+    super(message);
+    this.status = status;
+  }
+}
+
+async function ask(path, options = {}) {
+  let answer;
+  try {
+    answer = await fetch(path, { cache: "no-store", ...options });
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new ServerError("retex studio does not answer. Start it again; your project is kept.", 0);
+  }
+  if (answer.ok) return answer;
+  const text = await answer.text().catch(() => "");
+  let message = text;
+  try {
+    message = JSON.parse(text).error || text;
+  } catch { /* no JSON: the text is the message */ }
+  throw new ServerError(message || `The answer was ${answer.status}.`, answer.status);
+}
+
+const json = async (path, options) => (await ask(path, options)).json();
+const post = (path, value) => json(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(value) });
+
+export const getState = () => json("api/state");
+export const openModel = (path) => post("api/open", { path });
+export const getFolder = (path) => json(path ? `api/folder?path=${encodeURIComponent(path)}` : "api/folder");
+export const thumbAddress = (path, size = 160) => `api/thumb?path=${encodeURIComponent(path)}&size=${size}`;
+export const getJobs = () => json("api/jobs").then((answer) => answer.jobs || answer);
+export const startJob = (tool, args, label) => post("api/jobs", { tool, args, label });
+export const stopJob = (job) => post(`api/jobs/${job}/stop`, {});
+export const startPreview = (scene, args) => post("api/preview/start", { scene, args });
+export const sendPreview = (line) => post("api/preview", { line });
+export const quit = () => post("api/quit", {});
+
+export async function getProject() {
+  const answer = await ask("api/project");
+  return { project: await answer.json(), etag: answer.headers.get("ETag") };
+}
+
+/* The new ETag. etag: of what this window last saw; "" for the first project. */
+export async function putProject(project, etag) {
+  const match = etag ? { "If-Match": etag } : { "If-None-Match": "*" };
+  const answer = await ask("api/project", {
+    method: "PUT", headers: { "Content-Type": "application/json", ...match }, body: JSON.stringify(project, null, 1),
+  });
+  return answer.headers.get("ETag") || (await answer.json()).etag;
+}
+
+/* A file into the project's folder; its path there. */
+export const upload = (name, body) => json(`api/upload?name=${encodeURIComponent(name)}`, { method: "POST", body }).then((a) => a.path);
+
+/* The newest picture after one, or answer of a kind: { head, data }; null if none came. */
+async function binary(path, signal) {
+  const answer = await ask(path, { signal });
+  if (answer.status === 204) return null;
+  return { head: JSON.parse(answer.headers.get("Retex-Picture")), data: await answer.arrayBuffer() };
+}
+export const nextPicture = (after, signal) => binary(`api/preview/picture?after=${after}`, signal);
+export const nextAnswer = (kind, after, signal) => binary(`api/preview/answer?kind=${kind}&after=${after}`, signal);
+
+/* listeners by the event's name; `open` each time that the server is there (again), `lost` when it is not. */
+export function listenTo(listeners) {
+  const source = new EventSource("api/events");
+  for (const [name, listener] of Object.entries(listeners)) {
+    if (name === "open") source.addEventListener("open", () => listener());
+    else if (name === "lost") source.addEventListener("error", () => listener());
+    else source.addEventListener(name, (event) => listener(event.data ? JSON.parse(event.data) : {}));
+  }
+  return source;
+}

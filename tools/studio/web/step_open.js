@@ -1,0 +1,130 @@
+/* Open: a model is chosen, and made into a scene. */
+import * as api from "./api.js";
+import { importArgs } from "./commands.js";
+import { button, choice, field, h, icon, ICONS } from "./dom.js";
+import { kindOf } from "./project.js";
+import { errorReport, importReport, isLoss } from "./words.js";
+
+const KINDS = { model: "3D model", scene: "scene", set: "rendered room", folder: "folder", picture: "picture" };
+
+export const id = "open", title = "Open", hint = "Choose a 3D model of a room.";
+
+export const isDone = (app) => !!app.model && (app.hasScene || app.kind === "set");
+
+/* A file from the window is put into the project's folder first. */
+export async function openFile(app, file) {
+  if (!["model", "scene", "set"].includes(kindOf(file.name))) {
+    throw new Error(`“${file.name}” is no model. Choose a file such as .glb, .obj, .fbx, or a scene .pov.`);
+  }
+  app.say(`“${file.name}” is being copied…`);
+  await openPath(app, await api.upload(file.name, file));
+}
+
+export async function openPath(app, path) {
+  await api.openModel(path);
+  await app.load();
+  begin(app);
+}
+
+/* What comes first: an import, the view, or playing. */
+export function begin(app) {
+  app.listing = null;
+  if (app.kind === "set") app.go("play");
+  else if (app.hasScene) app.go(app.set ? "play" : "view");
+  else {
+    app.go("open");
+    importModel(app);
+  }
+}
+
+export const importModel = (app, change = {}) => app.attempt(async () => {
+  const how = { ...app.project.import, ...change, done: false };
+  app.amend((p) => ({ ...p, import: how }));
+  app.importing = true;
+  app.tell();
+  const job = await app.run("retex-import", importArgs(app.project), "Read the model");
+  app.importing = false;
+  app.importLines = job.lines;
+  const done = job.state === "done";
+  app.amend((p) => ({ ...p, import: { ...how, done, number: (how.number || 0) + 1, lines: job.lines.slice(0, 40) } }));
+  if (done) {
+    app.modelChanged = false;
+    app.say("The model is ready.");
+  }
+});
+
+function browser(app) {
+  const { listing } = app;
+  if (!listing) {
+    if (!app.listingComes) app.listingComes = app.attempt(() => browse(app, "")).finally(() => (app.listingComes = null));
+    return h("p", { class: "hint" }, "Looking for models…");
+  }
+  const rows = listing.entries.filter((e) => ["folder", "model", "scene", "set"].includes(e.kind));
+  const row = (e) => h("li", {}, button(e.name, () => app.attempt(() => (e.kind === "folder" ? browse(app, e.path) : openPath(app, e.path))),
+    { class: "row", "aria-label": `${e.name}, ${KINDS[e.kind]}` }, e.kind === "folder" ? "folder" : "file"));
+  return h("div", { class: "browser" },
+    h("h3", {}, "On this computer"), h("p", { class: "path" }, listing.path),
+    h("ul", { class: "rows" }, listing.parent ? h("li", {}, button("One folder up", () => app.attempt(() => browse(app, listing.parent)), { class: "row" }, "undo")) : null, rows.map(row)),
+    rows.length ? null : h("p", { class: "hint" }, "There is no model in this folder."));
+}
+
+async function browse(app, path) {
+  app.listing = await api.getFolder(path);
+  app.tell();
+}
+
+export function chooser(app, text, primary = true) {
+  const input = h("input", { type: "file", class: "quiet", id: "model-file", tabIndex: -1, "aria-hidden": "true",
+    accept: ".glb,.gltf,.obj,.fbx,.dae,.3ds,.ply,.stl,.pov,.exr,.retex",
+    onchange: (e) => e.target.files[0] && app.attempt(() => openFile(app, e.target.files[0])) });
+  return [button(text, () => input.click(), { class: primary ? "primary" : "", id: `choose-${primary ? "first" : "other"}` }), input];
+}
+
+function options(app) {
+  const how = app.project.import, set = (key) => (value) => app.change(`Change the import`, (p) => ({ ...p, import: { ...p.import, [key]: value } }));
+  return h("details", { id: "import-options", open: !!app.optionsOpen, ontoggle: (e) => (app.optionsOpen = e.target.open) },
+    h("summary", {}, "Is something wrong with the model?"),
+    field("Its lengths are in", choice("import-unit", [["", "find out"], ["m", "metres"], ["cm", "centimetres"], ["mm", "millimetres"], ["in", "inches"], ["ft", "feet"]], how.unit || "", set("unit")), "If tiles get the wrong size, this is why."),
+    field("Up is", choice("import-up", [["", "find out"], ["y", "the y axis"], ["z", "the z axis"]], how.up || "", set("up")), "If the room lies on its side."),
+    field("Begin", choice("import-camera", [["", "at the file's camera, or a good place"], ["inside", "inside the room"], ["outside", "outside, all of it"], ["cutaway", "above, without the ceiling"]], how.camera || "", set("camera"))),
+    field("Lights are", choice("import-lights", [["", "as bright as the file says"], ["0.25", "four times darker"], ["4", "four times brighter"], ["16", "sixteen times brighter"]], how.lights || "", set("lights"))),
+    button("Read the model again", () => importModel(app), { id: "import-again" }));
+}
+
+function report(app) {
+  const { lines = [], done } = app.project.import, problems = importReport(lines);
+  if (!lines.length) return null;
+  if (!done) {
+    const loss = isLoss(lines);
+    return h("div", { class: "card bad", role: "alert" }, icon(ICONS.warn),
+      h("div", {}, h("strong", {}, loss ? "Something is missing in the model" : "The model could not be read"),
+        loss ? h("ul", {}, problems.filter((p) => p.asks).map((p) => h("li", {}, p.text))) : h("p", {}, errorReport(lines, "The reader").text),
+        loss ? button("Go on without it", () => importModel(app, { partial: true }), { id: "import-partial" }) : null,
+        h("details", {}, h("summary", {}, "What the program said"), h("pre", {}, lines.join("\n")))));
+  }
+  return h("div", { class: "report" }, h("h3", {}, "What was found"),
+    h("ul", {}, problems.map((p) => h("li", { class: p.asks ? "asks" : "" }, p.asks ? icon(ICONS.warn) : icon(ICONS.done), h("span", {}, p.text)))),
+    h("details", {}, h("summary", {}, "What the program said"), h("pre", {}, lines.join("\n"))));
+}
+
+export function render(app) {
+  if (!app.model) {
+    return [h("p", {}, "A model is a file such as ", h("b", {}, "room.glb"), ", as Blender, SketchUp and other programs export it."), browser(app)];
+  }
+  return [
+    h("p", { class: "file-name" }, icon(ICONS.file), h("b", {}, app.model.name), ` (${KINDS[app.kind] || "file"})`),
+    app.modelChanged ? h("div", { class: "card", role: "status" }, icon(ICONS.warn), h("div", {}, h("strong", {}, "The file has changed"), h("p", {}, "It was saved anew by another program."),
+      app.kind === "model" ? button("Read it again", () => importModel(app), { id: "import-changed" }) : null)) : null,
+    app.importing ? h("div", { class: "card" }, h("span", { class: "spinner" }), h("p", {}, "The model is being read…")) : report(app),
+    app.kind === "model" && !app.importing ? options(app) : null,
+    h("div", { class: "buttons" }, chooser(app, "Open another model…", false)),
+  ].filter(Boolean);
+}
+
+export function next(app) {
+  if (!app.model) return null;
+  if (app.importing) return { label: "Reading the model…", disabled: true };
+  if (app.kind === "set") return { label: "Play with it", step: "play" };
+  if (app.hasScene) return { label: "Look at it", step: "view" };
+  return { label: "Read the model", run: () => importModel(app) };
+}
