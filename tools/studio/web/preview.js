@@ -193,8 +193,11 @@ export class Preview extends EventTarget {
     const [w, h] = this.size(640);
     await this.send(`${kind} ${w} ${h} ${text}`);
     const { head, data } = await this.answer(kind);
-    if (kind === "surfaces") this.surfaces = { ...readSurfaces(head, data), text };
-    else this.coordinates = { ...readCoordinates(head, data), text };
+    if (kind === "surfaces") {
+      this.hovered = null; // it was one of the planes before
+      this.surfaces = { ...readSurfaces(head, data), text };
+    }
+    if (kind === "uv") this.coordinates = { ...readCoordinates(head, data), text };
     this.tell(kind);
   }
 
