@@ -231,7 +231,10 @@ class StandIn:
                                     "Content-Security-Policy": POLICY, **headers}.items():
                     self.send_header(name.replace("_", "-"), str(value))
                 self.end_headers()
-                self.wfile.write(data)
+                try:
+                    self.wfile.write(data)
+                except OSError:
+                    pass  # the page no longer waits for it
 
             def parts(self):
                 url = urllib.parse.urlsplit(self.path)

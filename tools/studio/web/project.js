@@ -146,7 +146,7 @@ export function finishTrouble({ finishes, lamps }) {
   const chosen = Object.values(finishes).filter((f) => f.length > 1);
   const all = chosen.reduce((product, f) => product * f.length, 1);
   if (all > 8) return `These finishes make ${all} combinations; there can be 8. Take some away.`;
-  if (lamps.length && all * (lamps.length + 1) > 16) {
+  if (all > 1 && lamps.length && all * (lamps.length + 1) > 16) {
     return `${all} combinations of finishes with ${lamps.length + 1} lights make ${all * (lamps.length + 1)} pictures; `
       + "there can be 16. Take some lamps or finishes away.";
   }

@@ -13,7 +13,7 @@ export const readLamps = (text) => text.split("\n").map((line) => /^\s*([\d.]+)%
 /* "matt	built in" */
 export const readFinishes = (text) => text.split("\n").map((line) => line.split("\t")).filter(([name]) => name).map(([name, from = ""]) => ({ name, from }));
 
-const FINISH_WORDS = { matt: "matt", satin: "satin", polished: "polished", metal: "metal", original: "as it is now", normals: "bumps of textures" };
+const FINISH_WORDS = { matt: "matt", satin: "satin", polished: "polished", metal: "metal", original: "as it is now" };
 
 /* Asked once for each scene. */
 async function learn(app) {

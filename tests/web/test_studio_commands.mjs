@@ -1,0 +1,88 @@
+/* retex studio's command lines, looks and tables; words of the tools' grammar are those of retex-edit(5). */
+import { execFileSync } from "node:child_process";
+import { same, test } from "./tap.mjs";
+import * as c from "../../tools/studio/web/commands.js";
+import { addressOf, lookArgs, lookOfLink, pathOf, readLook } from "../../tools/studio/web/look.js";
+import { emptyProject } from "../../tools/studio/web/project.js";
+import { errorReport, importReport, isLoss } from "../../tools/studio/web/words.js";
+import { player } from "./player.mjs";
+
+const room = { ...emptyProject("my room.glb"), view: { eye: [1, 2, 3], at: [0, 1, 0], angle: 65 },
+  targets: [{ name: "Floor", select: "#3/flat:1", uv: "planar" }, { name: "Wall", select: "Walls", uv: "" }], lamps: ["Lamp"], finishes: { Floor: ["matt", "satin"], Wall: [] } };
+
+test("a render has all that was chosen", () => {
+  same(c.nextSet(room), "my room.studio/renders/1.exr");
+  same(c.nextSet({ ...room, renders: [{ set: "my room.studio/renders/9.exr" }, { set: "x" }] }), "my room.studio/renders/10.exr");
+  same(c.renderArgs(room, "s.exr"), ["-t", "Floor=#3/flat:1:uv=planar", "-t", "Wall=Walls", "-l", "Lamp", "--finish", "Floor=matt,satin", "--camera", "1,2,3:0,1,0:65",
+    "--size", "1280x720", "--spp", "64", "--denoise", "--resume", "--progress", "json", "-o", "s.exr", "my room.studio/scene/scene.pov"]);
+  const plain = c.renderArgs({ ...room, model: "a.pov", view: null, render: { ...room.render, samples: 1, noise: 0.05 } }, "s.exr");
+  same(plain.slice(-9), ["--spp", "1", "--noise", "0.05", "--resume", "--progress", "json", "-o", "s.exr", "a.pov"].slice(-9));
+  same([plain.includes("--camera"), plain.includes("--denoise")], [false, false]);
+});
+
+test("an import has what was said, and goes into the project's folder", () => {
+  same(c.importArgs({ ...room, import: { unit: "cm", camera: "inside", done: true, lines: ["x"], partial: true } }), ["--camera", "inside", "--unit", "cm", "--partial", "--force", "-o", "my room.studio/scene", "my room.glb"]);
+});
+
+test("trials and parts are of the same scene", () => {
+  same(c.trialArgs(room, 100, "t.exr").slice(-12), ["1,2,3:0,1,0:65", "--size", "100x56", "--spp", "4", "--denoise", "--stats", "-", "-q", "-o", "t.exr", "my room.studio/scene/scene.pov"]);
+  const part = c.cropArgs(room, [10, 20, 30, 40], "p.png");
+  same([part.includes("-l"), part.includes("--finish"), part[part.indexOf("--crop") + 1]], [false, false, "10,20,30,40"]);
+});
+
+test("words of a shell are read by a shell as they were", () => {
+  const words = ["plain", "my room.glb", "it's", "a$b`c", "", "#3/flat:1", "x=y", "-o", "!*?[]", "\n", "ö", "back\\slash", '"'];
+  const printed = execFileSync("sh", ["-c", c.shellLine("printf '%s|'", words)], { encoding: "utf8" });
+  same(printed, words.map((w) => `${w}|`).join(""));
+});
+
+test("the commands of a project, as they were run", () => {
+  const set = "my room.studio/renders/1.exr", done = { ...room, renders: [{ set, args: c.renderArgs(room, set), done: true }], look: "Floor=tomato" };
+  const lines = c.commandsOf(done).map((l) => l.line);
+  same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-pack", "retex-combine"]);
+  same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.studio/renders/1.exr'")], [false, false, true]);
+  same(c.commandsOf({ ...emptyProject("x.exr") }).map((l) => l.line.split(" ")[0]), ["retex-pack", "retex-combine"]);
+});
+
+test("addresses of files, and back", () => {
+  for (const path of ["room.studio/files/oak.jpg", "/home/u/a b/#1%.jpg", "ä/?.png"]) {
+    same(pathOf(addressOf(path)), path);
+    same(/[ #?]/.test(addressOf(path)), false);
+  }
+  same([addressOf("/tmp/a.jpg"), pathOf("tomato")], ["files//tmp/a.jpg", "tomato"]);
+});
+
+test("a look becomes options, whatever the player writes", () => {
+  const { parseEdit, editText } = player();
+  const text = editText(parseEdit("Floor=files/t/oak%25201.jpg;Floor.scale=2,1;Floor.rotate=30;over:Floor=files/l.png;over:Floor.width=0.5m;Wall%2Ewidth=tomato;light:Lamp=2.5;finish:Floor=satin;picture:exposure=0.5;picture:auto-exposure=yes;warmth=0.3"));
+  same(lookArgs(text), ["--texture:scale=2,1:rotate=30", "Floor=t/oak 1.jpg", "--texture:over:width=0.5m", "Floor=l.png", "--texture", "Wall.width=tomato", "--light", "Lamp=2.5", "--finish", "Floor=satin", "--auto-exposure", "--exposure", "0.5"]);
+  same(readLook(text).warmth, 0.3);
+  same([lookArgs(""), readLook("").textures], [[], []]);
+  same(lookOfLink("http://h/t/#room=Floor%3Dfiles%2Foak.jpg%3BFloor.scale=2,1&x=1"), "Floor=files/oak.jpg;Floor.scale=2,1");
+  same(lookOfLink("http://h/t/"), "");
+});
+
+test("a table of a catalogue", () => {
+  const textures = [{ path: "t/oak.jpg", width: 120, output: "oak.jpg" }, { path: "t/a, b.jpg", width: null, output: "a, b.jpg" }];
+  same(c.catalogueTable("Floor", textures, ""), 'output,Floor\noak.jpg,:width=120cm t/oak.jpg\n"a, b.jpg","t/a, b.jpg"\n');
+  const look = "Floor=files/x.jpg;Floor.scale=2,2;Floor.rotate=45;Floor.2=files/y.jpg;Wall=tomato";
+  same(c.catalogueTable("Floor", textures.slice(0, 1), look), "output,Floor\noak.jpg,:width=120cm:rotate=45 t/oak.jpg\n");
+  same(c.lookWithout(look, "Wall"), "Floor=files/x.jpg;Floor.scale=2,2;Floor.rotate=45;Floor.2=files/y.jpg");
+});
+
+test("a look without a target keeps those whose names begin alike", () => {
+  same(c.lookWithout("Floor=a;Floor.rotate=3;Floor 2=b;Flo=c;over:Floor=d", "Floor"), "Floor 2=b;Flo=c;over:Floor=d");
+});
+
+test("what an import tells, in plain words", () => {
+  const lines = ["retex-import: the room is 260 units high: they are taken as centimetres, and become metres; --unit overrides", "retex-import: there is no image `wood.png'",
+    "retex-import: something new", "retex-import: wrote x/x.pov", ""];
+  same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["Something new", false]]);
+  same([isLoss(["retex-import: images are lost; --partial makes the scene without them"]), isLoss(lines)], [true, false]);
+});
+
+test("errors say what to do, and keep the tool's line", () => {
+  same(errorReport(["retex-render: No space left on device"]).text.startsWith("The disk is full."), true);
+  same(errorReport(['{"stage": "render"}', "retex-render: odd: thing", "  "]), { text: "This did not work: odd: thing", asks: true, line: "odd: thing" });
+  same(errorReport([], "The render").text, "The render ended without saying why.");
+});
