@@ -57,6 +57,7 @@ class StandIn:
 
     def list(self, path):
         at, entries = self.path(path), []
+        os.makedirs(at, exist_ok=True)
         for name in sorted(os.listdir(at)):
             full = os.path.join(at, name)
             is_folder = os.path.isdir(full)
@@ -207,8 +208,8 @@ class StandIn:
             self.jobs[int(path.split("/")[2]) - 1]["process"].terminate()
             return {}
         if path == "api/preview/start":
-            camera = {"eye": [2, 1.5, 3], "at": [2, 1.2, 0], "angle": 70, "up": [0, 1, 0], "right": [1, 0, 0],
-                      "bounds": [[0, 0, 0], [5, 2.6, 4]]}
+            camera = {"eye": [1.284, 1.5, -2.437], "at": [4.171, 0.724, -2.184], "angle": 70, "up": [0, 1, 0], "right": [1, 0, 0],
+                      "bounds": [[0, 0, -4], [5, 2.6, 0]]}
             self.started = value
             self.publish("live", {"live": 1, "camera": camera, "width": 640, "height": 360}, b"")
             return {}
@@ -267,7 +268,10 @@ class StandIn:
                     made = stand_in.wait(query.get("kind", "picture"), int(query["after"]))
                     if not made:
                         return self.answer(b"", status=204)
-                    return self.answer(made[1], "application/octet-stream", Retex_Picture=json.dumps(made[0]))
+                    head = json.dumps(made[0])
+                    if path == "api/preview/picture":
+                        return self.answer(made[1], "application/octet-stream", Retex_Picture=head)
+                    return self.answer(head.encode() + b"\n" + made[1], "application/octet-stream")
                 if path == "api/thumb":
                     return self.file(stand_in.path(query["path"]))
                 if path.startswith("files/"):

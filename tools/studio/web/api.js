@@ -52,17 +52,25 @@ export async function putProject(project, etag) {
   return answer.headers.get("ETag") || (await answer.json()).etag;
 }
 
-/* A file into the project's folder; its path there. */
-export const upload = (name, body) => json(`api/upload?name=${encodeURIComponent(name)}`, { method: "POST", body }).then((a) => a.path);
+/* A file into the project's folder, or a model into a folder of its own; its path there. */
+const sent = (query, body) => json(`api/upload?${query}`, { method: "POST", body }).then((a) => a.path);
+export const upload = (name, body) => sent(`name=${encodeURIComponent(name)}`, body);
+export const uploadModel = (name, body) => sent(`as=model&name=${encodeURIComponent(name)}`, body);
 
-/* The newest picture after one, or answer of a kind: { head, data }; null if none came. */
-async function binary(path, signal) {
-  const answer = await ask(path, { signal });
+/* The newest picture after one: { head, data }; null if none came. */
+export async function nextPicture(after, signal) {
+  const answer = await ask(`api/preview/picture?after=${after}`, { signal });
   if (answer.status === 204) return null;
   return { head: JSON.parse(answer.headers.get("Retex-Picture")), data: await answer.arrayBuffer() };
 }
-export const nextPicture = (after, signal) => binary(`api/preview/picture?after=${after}`, signal);
-export const nextAnswer = (kind, after, signal) => binary(`api/preview/answer?kind=${kind}&after=${after}`, signal);
+
+/* The newest answer of a kind likewise: a line of JSON, then bytes. */
+export async function nextAnswer(kind, after, signal) {
+  const answer = await ask(`api/preview/answer?kind=${kind}&after=${after}`, { signal });
+  if (answer.status === 204) return null;
+  const data = await answer.arrayBuffer(), end = new Uint8Array(data).indexOf(10);
+  return { head: JSON.parse(new TextDecoder().decode(data.slice(0, end))), data: data.slice(end + 1) };
+}
 
 /* listeners by the event's name; `open` each time that the server is there (again), `lost` when it is not. */
 export function listenTo(listeners) {

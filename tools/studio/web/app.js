@@ -2,7 +2,7 @@
  * "change" (anything to be drawn anew), "message". */
 import * as api from "./api.js";
 import { amended, changed, emptyProject, kindOf, newHistory, readProject, redone, undone, withRender } from "./project.js";
-import { errorReport } from "./words.js";
+import { errorReport, plainly } from "./words.js";
 
 const SAVE_AFTER = 400; // ms
 
@@ -40,7 +40,7 @@ export class App extends EventTarget {
     try {
       return await action();
     } catch (error) {
-      if (error.name !== "AbortError") this.say(error.message, "error");
+      if (error.name !== "AbortError") this.say(plainly(error.message), "error");
       return undefined;
     }
   }

@@ -43,6 +43,7 @@ export class Player {
     this.setHash(this.app.project.look);
     const room = (this.element = document.createElement("retex-room"));
     room.setAttribute("src", src);
+    if (matchMedia("(max-width: 800px)").matches) room.setAttribute("panel", "closed");
     room.addEventListener("retex-change", () => this.takeLook());
     room.addEventListener("retex-select", () => this.app.tell());
     room.addEventListener("retex-ready", () => this.app.tell());

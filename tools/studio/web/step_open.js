@@ -17,7 +17,7 @@ export async function openFile(app, file) {
     throw new Error(`“${file.name}” is no model. Choose a file such as .glb, .obj, .fbx, or a scene .pov.`);
   }
   app.say(`“${file.name}” is being copied…`);
-  await openPath(app, await api.upload(file.name, file));
+  await openPath(app, await api.uploadModel(file.name, file));
 }
 
 export async function openPath(app, path) {

@@ -54,6 +54,9 @@ export function importReport(lines) {
 /* Images or other parts are lost: the import can go on without them. */
 export const isLoss = (lines) => lines.some((line) => /--partial/.test(line));
 
+/* What an error of the server means, or its own words. */
+export const plainly = (message) => meant(ERRORS, message)?.text || message;
+
 /* An error of a tool: what to do, and the tool's own line. */
 export function errorReport(lines, tool = "") {
   const line = bare(lines.filter((l) => l.trim() && !l.startsWith("{")).at(-1) || "");

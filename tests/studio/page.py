@@ -1,0 +1,191 @@
+"""The page of retex studio in headless Chromium, by clicks and keys, from a model to a picture, as TAP. stand_in.py is its
+server: tools run, the preview's pictures are made up. RETEX_WEB_SHOTS is a folder for pictures of the page."""
+import filecmp
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TOP = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [f"{TOP}/tests/web", HERE]
+from page import Page, finish, result  # noqa: E402
+from stand_in import StandIn  # noqa: E402
+
+
+class Studio(Page):
+    def wait(self, code, seconds=90):
+        if not self.until(f"(() => {{ try {{ return !!({code}); }} catch {{ return false; }} }})()", seconds):
+            raise SystemExit(f"this did not come: {code}")
+
+    def go(self, selector):
+        quoted = json.dumps(selector)
+        self.wait(f"document.querySelector({quoted}) && !document.querySelector({quoted}).disabled")
+        time.sleep(0.2)
+        x, y = self.run(f"(() => {{ const e = document.querySelector({quoted}); e.scrollIntoView({{block: 'nearest'}}); "
+                        "const r = e.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()")
+        self.click(x, y)
+        self.settle()
+
+    def put(self, selector, value):  # pylint: disable=arguments-differ
+        self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.value = {json.dumps(value)}; "
+                 "e.dispatchEvent(new Event('change')); })()")
+        self.settle()
+
+    def picture(self, part):
+        """A place of the preview, as a part of its width, half way down."""
+        return self.run("(() => { const r = document.querySelector('#picture').getBoundingClientRect(); "
+                        f"return [r.x + r.width * {part}, r.y + r.height / 2]; }})()")
+
+    def trouble(self):
+        wrong = [e["params"] for e in self.events if e["method"] in ("Runtime.exceptionThrown", "Log.entryAdded")]
+        self.events.clear()
+        for found in wrong:
+            print("#", str(found)[:300])
+        return bool(wrong) or self.run("[...document.querySelectorAll('.message.error')].map(e => e.textContent).join()")
+
+
+def saved(server):
+    with open(server.project_file, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def settled(page, server):
+    page.wait("document.querySelector('#saved').textContent === 'All is saved'")
+    return saved(server)
+
+
+def open_studio(page, server):
+    page.call("Page.navigate", url=server.url)
+    page.wait("document.querySelector('#panel-title').textContent === 'Open'")
+
+
+def choose(page, server):
+    open_studio(page, server)
+    page.shot("studio-open")
+    page.go(".browser button.row")
+    page.wait("document.querySelector('.report li')")
+    result(settled(page, server)["import"]["done"] and not page.trouble(), "a model is opened by a click, and imported")
+    page.shot("studio-imported")
+    page.go("#next-button")
+    page.go("#keep-view")
+    page.shot("studio-view")
+    page.go("#undo")
+    result(settled(page, server)["cameras"] == [], "a kept view is undone")
+    page.go("#next-button")
+    page.wait("document.querySelector('#seen summary')")
+    for part in (0.1, 0.5):
+        page.click(*page.picture(part))
+        page.settle()
+    page.call("Input.dispatchMouseEvent", type="mouseMoved", x=page.picture(0.9)[0], y=page.picture(0.9)[1])
+    page.settle()
+    result(page.run("document.querySelector('#under').textContent") == "Sofa", "the name of what is under the pointer")
+    page.shot("studio-surfaces")
+    result([t["select"] for t in settled(page, server)["targets"]] == ["Floor", "Walls"], "surfaces are taken by clicks")
+    page.run("document.querySelector('#picture').focus()")
+    page.key("4", 52)
+    page.click(*page.picture(0.9))
+    page.settle()
+    taken = [t["select"] for t in settled(page, server)["targets"]]
+    page.run("document.querySelector('#picture').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="z", code="KeyZ", modifiers=2)
+    page.settle()
+    result(taken[-1] == "Sofa/object" and len(settled(page, server)["targets"]) == 2,
+           "the key 4 takes objects, and Ctrl-Z gives one back")
+    page.put("#target-1", "Wände")
+    result(settled(page, server)["targets"][1]["name"] == "Wände", "a surface is renamed")
+
+
+def light_and_render(page, server):
+    page.go("#next-button")
+    page.go("#finish-0-0")
+    page.go("#finish-0-1")
+    page.go("#lamp-0")
+    page.shot("studio-light")
+    page.go("#next-button")
+    page.put("#size", "own")
+    page.put("#own-width", "160")
+    page.put("#own-height", "90")
+    page.put("#quality", "8")
+    page.go("#guess")
+    page.wait("document.querySelector('.forecast dl')")
+    page.shot("studio-render")
+    page.go("#next-button")
+    page.wait("document.querySelector('.renders .good')", 200)
+    project = settled(page, server)
+    result(project["renders"][0]["done"] and not page.trouble(), "a render with a lamp and finishes, after an estimate")
+    page.go("#next-button")
+    page.wait("document.querySelector('retex-room') && document.querySelector('retex-room').textures.length")
+    page.run("document.querySelector('retex-room').complete")
+
+
+def play(page, server):
+    page.go("#root-1")
+    page.run("document.querySelector('retex-room').select('Floor')")
+    page.go("#swatch-1")
+    page.wait("document.querySelector('retex-room').getState().textures.Floor")
+    page.put("#picture-width", "40")
+    page.wait("document.querySelector('retex-room').getState().textures.Floor.width")
+    look = settled(page, server)["look"]
+    result(look.startswith("Floor=files/") and "damask" in look and "Floor.width=0.4m" in look,
+           f"a picture lies on the floor, 40 cm wide: {look}")
+    page.shot("studio-play")
+    page.go("#step-take")
+    page.go("#make-picture")
+    page.wait("document.querySelector('.card a.button[download]')")
+    page.shot("studio-take")
+    page.run("document.querySelector('#commands').open = true")
+    line = page.run("document.querySelector('#commands pre').textContent").strip().splitlines()[-1]
+    subprocess.run(["sh", "-c", line], cwd=server.work, check=True)
+    made = f"{server.work}/{server.folder}/pictures"
+    result(filecmp.cmp(f"{made}/{os.listdir(made)[0]}", f"{server.work}/{server.folder}/picture.png", shallow=False),
+           "the command that is shown makes the same file")
+    result(not page.trouble(), "nothing went wrong on the way")
+
+
+def others(page, server):
+    """Another window, and a server that refuses."""
+    changed = {**saved(server), "look": ""}
+    with open(server.project_file, "w", encoding="utf-8") as file:
+        json.dump(changed, file)
+    page.go("#keep-look")
+    page.wait("document.querySelector('#conflict').open")
+    page.shot("studio-conflict")
+    page.go("#take-over")
+    result(len(settled(page, server)["presets"]) == 1, "a change by another window is told, and can be taken over")
+    server.refuse = ("api/jobs", 507, "no space left")
+    page.go("#make-pack")
+    page.wait("document.querySelector('.message.error')")
+    result("Make room on it" in page.run("document.querySelector('.message.error').textContent"), "what the server refuses is told with what to do")
+    page.size(390, 844, phone=True)
+    page.settle()
+    page.shot("studio-phone")
+    result(page.run("document.documentElement.scrollWidth") <= 390, "a phone shows all of its width")
+    names = page.run("[...document.querySelectorAll('button, input, select')].filter(e => e.checkVisibility() && !e.textContent.trim() "
+                     "&& !e.getAttribute('aria-label') && !(e.labels && e.labels.length)).map(e => e.outerHTML)")
+    result(names == [], f"all controls have names {names}")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as work:
+        subprocess.run([sys.executable, "-B", f"{TOP}/tests/cli/import_room.py"], cwd=work, check=True)
+        for name in os.listdir(work):
+            if name != "room.obj":
+                os.remove(f"{work}/{name}")
+        server = StandIn(f"{TOP}/tools/studio/web", work, f"{TOP}/scenes/textures",
+                         [(name, name) for name in ("Floor", "Walls", "Sofa")])
+        page = Studio("")
+        try:
+            page.size(1280, 800)
+            choose(page, server)
+            light_and_render(page, server)
+            play(page, server)
+            others(page, server)
+        finally:
+            page.close()
+    finish()
+
+
+main()
