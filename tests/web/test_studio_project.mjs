@@ -67,9 +67,9 @@ test("what has happened stays, whatever is undone", () => {
 
 test("surfaces are taken under a name of their own, eight of them", async () => {
   let p = withTarget(project(), { text: "#1/material", name: "Floor", share: 0.2 });
-  p = withTarget(p, { text: "#2/flat:1", name: "floor" });
-  p = withTarget(p, { text: "#3", name: "a=b:c,d" });
-  same(p.targets.map((t) => t.name), ["Floor", "floor 2", "a_b_c_d"]);
+  p = withTarget(p, { text: "#2/flat:1", name: "Mesh_floor" });
+  p = withTarget(p, { text: "#3", name: "old__wood=a" });
+  same(p.targets.map((t) => t.name), ["Floor", "floor 2", "old wood_a"]);
   await fails(() => withTarget(p, { text: "#3", name: "x" }), /already/);
   for (let k = 4; k <= 8; k++) p = withTarget(p, { text: `#${k}`, name: "" });
   await fails(() => withTarget(p, { text: "#9", name: "x" }), /can have 8/);

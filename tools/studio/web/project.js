@@ -118,12 +118,15 @@ export function freeName(name, taken) {
   return `${plain} ${number}`;
 }
 
+/* What a surface is called at first: importers write Mesh_ and underscores. */
+const spoken = (name) => name.replace(/^Mesh_(?=.)/, "").replace(/_+/g, " ");
+
 export function withTarget(project, surface) {
   if (project.targets.length >= TARGETS_MOST) {
     throw new Error(`A picture can have ${TARGETS_MOST} surfaces. Remove one to take another.`);
   }
   if (project.targets.some((t) => t.select === surface.text)) throw new Error("This surface is in the list already.");
-  const name = freeName(surface.name || "Surface", project.targets.map((t) => t.name));
+  const name = freeName(spoken(surface.name || "Surface"), project.targets.map((t) => t.name));
   const target = { name, select: surface.text, uv: surface.uv || "", share: surface.share || 0 };
   return { ...project, targets: [...project.targets, target] };
 }
