@@ -116,9 +116,9 @@ $ for value in $(retex-combine --complete --texture:wrap= | cut -f1 | sed 's/.*=
 
 # retex: commands, and what their tools say.
 $ retex --complete '' | cut -f1 | tr '\n' ' '; retex --complete --; retex --complete help '' | cut -f1 | tr '\n' ' '
-> import render denoise sample combine pack info diff serve help --help	print this help and exit
+> import render denoise sample combine pack info diff serve studio help --help	print this help and exit
 > --version	print the version and exit
-> import render denoise sample combine pack info diff serve
+> import render denoise sample combine pack info diff serve studio
 $ retex --complete combine room.exr --texture ''; retex --complete combine ''; retex --complete nonsense ''; retex --complete help combine ''
 > Floor=	40.0 % of the picture
 > Wall=	40.0 % of the picture
@@ -136,6 +136,7 @@ $ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr && find 'a root/usr/sh
 > a root/usr/share/bash-completion/completions/retex-render
 > a root/usr/share/bash-completion/completions/retex-sample
 > a root/usr/share/bash-completion/completions/retex-serve
+> a root/usr/share/bash-completion/completions/retex-studio
 > a root/usr/share/fish/vendor_completions.d/retex-combine.fish
 > a root/usr/share/fish/vendor_completions.d/retex-denoise.fish
 > a root/usr/share/fish/vendor_completions.d/retex-diff.fish
@@ -145,6 +146,7 @@ $ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr && find 'a root/usr/sh
 > a root/usr/share/fish/vendor_completions.d/retex-render.fish
 > a root/usr/share/fish/vendor_completions.d/retex-sample.fish
 > a root/usr/share/fish/vendor_completions.d/retex-serve.fish
+> a root/usr/share/fish/vendor_completions.d/retex-studio.fish
 > a root/usr/share/fish/vendor_completions.d/retex.fish
 > a root/usr/share/zsh/site-functions/_retex
 $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-completion/completions" | tee bash.txt

@@ -1,4 +1,4 @@
-/* Server-sent events: a window is told which jobs, which project and which model have changed since it was told last. */
+/* Server-sent events: a window is told which jobs, which project and which model have changed since last time. */
 #ifndef RETEX_STUDIO_EVENTS_H
 #define RETEX_STUDIO_EVENTS_H
 

@@ -1,9 +1,11 @@
 /* See http.h. */
 #include "http.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "http/head.h"
@@ -19,6 +21,7 @@ enum { CONNECTIONS = 200, SILENT_SECONDS = 120, TEXT_BYTES = 4 << 20, REST = 409
 struct Http {
     Studio *studio;
     struct MHD_Daemon *daemon;
+    atomic_int exchanges; /* requests that have no complete answer yet */
 };
 
 /* A request that is being received. */
@@ -150,6 +153,7 @@ static enum MHD_Result handle(void *context, struct MHD_Connection *connection, 
         *state = exchange = calloc(1, sizeof *exchange);
         if (!exchange)
             return MHD_NO;
+        atomic_fetch_add(&http->exchanges, 1);
         exchange->request = (Request){.studio = http->studio, .connection = connection, .method = method};
         if (refuse_head(exchange, version) || refuse_stranger(exchange, url) || refuse_path(exchange))
             return send_refusal(exchange);
@@ -168,12 +172,13 @@ static enum MHD_Result handle(void *context, struct MHD_Connection *connection, 
 static void complete(void *context, struct MHD_Connection *connection, void **state,
                      enum MHD_RequestTerminationCode why)
 {
+    Http *http = context;
     Exchange *exchange = *state;
-    (void)context;
     (void)connection;
     (void)why;
     if (!exchange)
         return;
+    atomic_fetch_sub(&http->exchanges, 1);
     received_drop(&exchange->request.received);
     if (exchange->refusal.response)
         MHD_destroy_response(exchange->refusal.response);
@@ -192,7 +197,7 @@ int http_open(Http **http, Studio *studio, int port, RetexError *err)
         (*http)->studio = studio;
         (*http)->daemon = MHD_start_daemon(
             MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_THREAD_PER_CONNECTION | MHD_USE_POLL | MHD_USE_ITC, 0, NULL, NULL,
-            handle, *http, MHD_OPTION_LISTEN_SOCKET, file, MHD_OPTION_NOTIFY_COMPLETED, complete, NULL,
+            handle, *http, MHD_OPTION_LISTEN_SOCKET, file, MHD_OPTION_NOTIFY_COMPLETED, complete, *http,
             MHD_OPTION_CONNECTION_LIMIT, (unsigned)CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENT_SECONDS,
             MHD_OPTION_END);
     }
@@ -206,9 +211,16 @@ int http_open(Http **http, Studio *studio, int port, RetexError *err)
 
 void http_close(Http **http)
 {
+    enum { LOOKS = 200, LOOK_NANOSECONDS = 10000000 };
+    const struct timespec look = {.tv_nsec = LOOK_NANOSECONDS};
     if (!*http)
         return;
+    const MHD_socket file = MHD_quiesce_daemon((*http)->daemon);
+    for (int k = 0; k < LOOKS && atomic_load(&(*http)->exchanges); k++)
+        nanosleep(&look, NULL);
     MHD_stop_daemon((*http)->daemon);
+    if (file != MHD_INVALID_SOCKET)
+        close(file);
     free(*http);
     *http = NULL;
 }

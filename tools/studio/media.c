@@ -42,8 +42,8 @@ const char *media_type(const char *name, int is_own)
     return "application/octet-stream";
 }
 
-/* The part that a header asks for: `bytes=FIRST-LAST`, `FIRST-` or `-COUNT`. 1: a part; 0: the whole, also where several
- * are asked for; below 0: there is no such part. */
+/* The part that a header asks for: `bytes=FIRST-LAST`, `FIRST-` or `-COUNT`. 1: a part; 0: the whole, also where
+ * several are asked for; below 0: there is no such part. */
 static int find_range(const char *header, off_t size, off_t *first, off_t *count)
 {
     unsigned long long a = 0, b = 0;

@@ -1,5 +1,5 @@
 /* The preview: one process `retex-render --live`, which gets lines and answers each by a line of JSON and bytes; see
- * retex-render(1). Of each kind of answer only the newest is kept, so that a slow window has nothing to catch up with. */
+ * retex-render(1). Of each kind of answer only the newest is kept: a slow window has nothing to catch up with. */
 #ifndef RETEX_STUDIO_PREVIEW_H
 #define RETEX_STUDIO_PREVIEW_H
 

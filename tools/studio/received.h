@@ -19,8 +19,8 @@ typedef struct Received {
     char temporary[PATH_MAX];
 } Received;
 
-/* Begin a file below a folder, which is made. `name` is the window's: a file's, or one with folders; what no file system
- * should get is replaced. length: bytes that are announced, or 0. RETEX_ELIMIT: it is too large; RETEX_EIO:
+/* Begin a file below a folder, which is made. `name` is the window's: a file's, or one with folders; what no file
+ * system should get is replaced. length: bytes that are announced, or 0. RETEX_ELIMIT: it is too large; RETEX_EIO:
  * it cannot be written, as on a disk that is full. */
 int received_begin(Received *received, const char *folder, const char *name, uint64_t length, RetexError *err);
 int received_bytes(Received *received, const void *data, size_t bytes, RetexError *err);
