@@ -19,6 +19,7 @@ $ retex
 >   info     Describe a set, samples or a pack, or check that it is whole
 >   diff     Compare picture A with the reference B
 >   serve    Serve pictures of sets and packs, with the textures that URLs name
+>   studio   Retexture a model in the browser: see it, choose surfaces, render, change textures
 >
 > retex COMMAND is the program retex-COMMAND; --help after it lists its options,
 > and retex help COMMAND shows its man page.
@@ -26,6 +27,7 @@ $ retex
 >   -h, --help                  print this help and exit
 >   -V, --version               print the version and exit
 $ retex --help | cmp - help.txt; retex --help >help.txt; retex | cmp - help.txt && awk 'length > 79' help.txt
+>   studio   Retexture a model in the browser: see it, choose surfaces, render, change textures
 ! cmp: help.txt: No such file or directory
 $ for tool in "$(dirname "$(command -v retex)")"/retex-*; do name=${tool##*/retex-}; grep -q "^  $name  *[A-Z]" help.txt || echo "$name is not in the list"; done
 
