@@ -42,6 +42,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_retexture: ok
 > retex_auto_exposure: ok
 > retex_estimate_error: ok
+> retex_kept_samples_create: ok
 > retex_sample_textures: ok
 > retex_samples_refer: ok
 > retex_samples_open_set: ok

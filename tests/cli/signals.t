@@ -130,7 +130,7 @@ $ cp set.exr out/old.exr; make_set wide.exr 256 256; retex-pack -q --lossless wi
 > 2
 > retex-combine: error: cannot write out/new.exr: File too large
 > 2
-> retex-combine: error: out/new.pfm: cannot make a file in DIR: File too large
+> retex-combine: error: cannot write out/new.pfm: File too large
 > 2
 > retex-denoise: error: cannot write out/new.exr: File too large
 > 2

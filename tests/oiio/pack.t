@@ -5,7 +5,7 @@ $ retex-combine -q room.retex -o plain.exr; retex-combine -q room.retex --textur
 
 # Its picture, the parts of its set by name, and what is told of them.
 $ iinfo room.retex
-> room.retex :   48 x   32, 3 channel, float retex (147 subimages)
+> room.retex :   48 x   32, 3 channel, float retex (141 subimages)
 $ iinfo -v -a room.retex | grep -A 16 'subimage  1:' | sort
 >     channel list: indep.R, indep.G, indep.B
 >     channel list: original_Floor.R, original_Floor.G, original_Floor.B
@@ -99,8 +99,8 @@ $ maketx room.retex -o x.tx && oiiotool 'room.retex?Floor=brick.jpg' -otex y.tx 
 > y.tx :   48 x   32, 3 channel, float tiff (+mipmap)
 $ retex-combine -q room.retex --texture Wall=room.retex -o x.exr && oiiotool 'room.retex?Wall=room.retex' -d half -o y.exr && retex-diff x.exr y.exr >/dev/null && echo same
 > same
-! retex-combine: warning: room.retex: 20 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
-! retex: warning: room.retex: 20 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex-combine: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
 
 # What is wrong with options.
 $ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&Floor.scal=2' 'Floor=brick.jpg&Floor.scale=0' 'Floor=brick.jpg&floor=brick.jpg' 'Floor=rgb(1,2)' 'Floor=brick.jpg&Floor.wrap=a:b'; do oiiotool "room.retex?$o" -o no.exr 2>&1 | grep ERROR; done
