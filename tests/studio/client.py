@@ -127,6 +127,8 @@ def roots(server):
         expect('opening ' + path, status(server, 'api/open', 'POST', {'path': path + '/x.pov'}), 403)
     kinds = {entry['name']: (entry['kind'], entry['path']) for entry in server.json('api/folder')['entries']}
     expect('scene', kinds['room.pov'], ('scene', 'room.pov'))
+    expect('no folder', status(server, 'api/folder?path=none'), 404)
+    expect('a folder to come', server.json('api/folder?path=room.studio/files')['entries'], [])
     expect('page', server.json('api/folder?path=room.studio')['entries'][-1]['kind'] in ('page', 'file'), True)
 
 
@@ -164,6 +166,7 @@ def thumbs(server):
             expect('JPEG', answer.body[:2], b'\xff\xd8')
             expect('again', status(server, f'api/thumb?path={name}&size=64', If_None_Match=answer.headers['ETag']), 304)
     expect('size', status(server, 'api/thumb?path=red.png&size=5000'), 400)
+    expect('no file', status(server, 'api/thumb?path=none.png'), 404)
 
 
 def full(server):

@@ -1,5 +1,5 @@
-"""The page of retex studio in headless Chromium, by clicks and keys, from a model to a picture, as TAP. stand_in.py is its
-server: tools run, the preview's pictures are made up. RETEX_WEB_SHOTS is a folder for pictures of the page."""
+"""retex-studio in headless Chromium, by clicks and keys, from a model to a picture, as TAP. RETEX_WEB_SHOTS is a folder for
+pictures of the page."""
 import filecmp
 import json
 import os
@@ -12,7 +12,31 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 sys.path[:0] = [f"{TOP}/tests/web", HERE]
 from page import Page, finish, result  # noqa: E402
-from stand_in import StandIn  # noqa: E402
+
+
+class Server:
+    """A retex-studio without a model, at home in a folder."""
+
+    folder = "room.studio"
+
+    def __init__(self, work, textures):
+        self.work, self.project_file = work, f"{work}/room.studio.json"
+        address = f"{work}/.address"
+        self.process = subprocess.Popen(["retex-studio", "--no-browser", "--textures", textures, "-o", address], cwd=work,
+                                        env={**os.environ, "HOME": work})
+        while not os.path.exists(address):
+            if self.process.poll() is not None:
+                raise SystemExit("retex-studio has ended")
+            time.sleep(0.02)
+        with open(address, encoding="utf-8") as file:
+            self.url = file.read().strip()
+
+    def close(self):
+        self.process.terminate()
+        return self.process.wait(60)
+
+
+FLOOR, WALL, TABLE = (0.45, 0.95), (0.3, 0.2), (0.2, 0.7)  # places of the picture
 
 
 class Studio(Page):
@@ -34,10 +58,10 @@ class Studio(Page):
                  "e.dispatchEvent(new Event('change')); })()")
         self.settle()
 
-    def picture(self, part):
-        """A place of the preview, as a part of its width, half way down."""
+    def picture(self, across, down):
+        """A place of the preview, as parts of its width and height."""
         return self.run("(() => { const r = document.querySelector('#picture').getBoundingClientRect(); "
-                        f"return [r.x + r.width * {part}, r.y + r.height / 2]; }})()")
+                        f"return [r.x + r.width * {across}, r.y + r.height * {down}]; }})()")
 
     def trouble(self):
         wrong = [e["params"] for e in self.events if e["method"] in ("Runtime.exceptionThrown", "Log.entryAdded")]
@@ -76,24 +100,26 @@ def choose(page, server):
     result(settled(page, server)["cameras"] == [], "a kept view is undone")
     page.go("#next-button")
     page.wait("document.querySelector('#seen summary')")
-    for part in (0.1, 0.5):
-        page.click(*page.picture(part))
-        page.settle()
-    page.call("Input.dispatchMouseEvent", type="mouseMoved", x=page.picture(0.9)[0], y=page.picture(0.9)[1])
-    page.settle()
-    result(page.run("document.querySelector('#under').textContent") == "Sofa", "the name of what is under the pointer")
+    for number, place in enumerate((FLOOR, WALL)):
+        page.click(*page.picture(*place))
+        page.wait(f"document.querySelector('#target-{number}')")
+    page.wait("document.querySelector('#seen summary')")
+    page.call("Input.dispatchMouseEvent", type="mouseMoved", x=page.picture(*TABLE)[0], y=page.picture(*TABLE)[1])
+    page.wait("document.querySelector('#under').textContent")
+    result(page.run("document.querySelector('#under').textContent") == "Table", "the name of what is under the pointer")
     page.shot("studio-surfaces")
-    result([t["select"] for t in settled(page, server)["targets"]] == ["Floor", "Walls"], "surfaces are taken by clicks")
+    found = settled(page, server)["targets"]
+    result([t["name"] for t in found] == ["Floor", "Walls"], f"surfaces are taken by clicks {found}")
     page.run("document.querySelector('#picture').focus()")
     page.key("4", 52)
-    page.click(*page.picture(0.9))
+    page.click(*page.picture(*TABLE))
     page.settle()
-    taken = [t["select"] for t in settled(page, server)["targets"]]
+    taken = [t["select"] if t["name"] == "Table" else t["name"] for t in settled(page, server)["targets"]]
     page.run("document.querySelector('#picture').focus()")
     page.call("Input.dispatchKeyEvent", type="keyDown", key="z", code="KeyZ", modifiers=2)
     page.settle()
-    result(taken[-1] == "Sofa/object" and len(settled(page, server)["targets"]) == 2,
-           "the key 4 takes objects, and Ctrl-Z gives one back")
+    result(taken[-1] == "#5" and len(settled(page, server)["targets"]) == 2,
+           f"the key 4 takes objects, and Ctrl-Z gives one back {taken}")
     page.put("#target-1", "Wände")
     result(settled(page, server)["targets"][1]["name"] == "Wände", "a surface is renamed")
 
@@ -146,19 +172,25 @@ def play(page, server):
 
 
 def others(page, server):
-    """Another window, and a server that refuses."""
-    changed = {**saved(server), "look": ""}
+    """Another window, and a job that fails."""
+    changed = {**saved(server), "presets": [{"name": "Empty", "look": ""}]}
     with open(server.project_file, "w", encoding="utf-8") as file:
         json.dump(changed, file)
-    page.go("#keep-look")
+    page.wait("document.querySelector('#messages').textContent.includes('Another window')")
+    page.wait("[...document.querySelectorAll('#panel input')].some(e => e.value === 'Empty')")
+    page.run("document.querySelector('#keep-look').click()")  # it is saved a little later
+    with open(server.project_file, "w", encoding="utf-8") as file:
+        json.dump({**changed, "look": ""}, file)
     page.wait("document.querySelector('#conflict').open")
     page.shot("studio-conflict")
     page.go("#take-over")
-    result(len(settled(page, server)["presets"]) == 1, "a change by another window is told, and can be taken over")
-    server.refuse = ("api/jobs", 507, "no space left")
+    result(len(settled(page, server)["presets"]) == 2, "a change by another window is told, and can be taken over")
+    os.rename(f"{server.work}/{saved(server)['renders'][0]['set']}", f"{server.work}/away.exr")
     page.go("#make-pack")
     page.wait("document.querySelector('.message.error')")
-    result("Make room on it" in page.run("document.querySelector('.message.error').textContent"), "what the server refuses is told with what to do")
+    told = page.run("document.querySelector('.message.error').textContent")
+    result("no longer where it was" in told, f"a job that fails is told with what to do: {told}")
+    page.shot("studio-failed")
     page.size(390, 844, phone=True)
     page.settle()
     page.shot("studio-phone")
@@ -174,8 +206,7 @@ def main():
         for name in os.listdir(work):
             if name != "room.obj":
                 os.remove(f"{work}/{name}")
-        server = StandIn(f"{TOP}/tools/studio/web", work, f"{TOP}/scenes/textures",
-                         [(name, name) for name in ("Floor", "Walls", "Sofa")])
+        server = Server(work, f"{TOP}/scenes/textures")
         page = Studio("")
         try:
             page.size(1280, 800)
@@ -185,6 +216,7 @@ def main():
             others(page, server)
         finally:
             page.close()
+            result(server.close() == 0, "a signal ends the server")
     finish()
 
 

@@ -2,7 +2,7 @@
 import { fails, near, random, same, test } from "./tap.mjs";
 import * as cam from "../../tools/studio/web/camera.js";
 import { displayed, displayTable, halfValue } from "../../tools/studio/web/picture.js";
-import { gridLine, isEdge, maskOf, readCoordinates, readSurfaces, SCOPES, surfaceAt } from "../../tools/studio/web/planes.js";
+import { gridLine, isEdge, maskOf, readCoordinates, readSurfaces, SCOPES, surfaceAt, surfacesOf } from "../../tools/studio/web/planes.js";
 import { bytesText, durationText, estimate, trialOf } from "../../tools/studio/web/estimate.js";
 
 const camera = { eye: [1, 2, 3], at: [1, 2, 8], angle: 60 }; // along z
@@ -85,6 +85,8 @@ test("the surface under the pointer, by scope", async () => {
   same([[0, 0], [0.99, 0.99], [1, 0], [-0.01, 0], [0, 1], [0.1, 0.9]].map(([x, y]) => surfaceAt(of, "material", x, y)?.text), [undefined, undefined, undefined, undefined, undefined, "A"]);
   same([...maskOf(of, of.surfaces[2])], [0, 1, 1, 1, 1, 1, 0, 0]);
   same(maskOf(of, { kind: "flat" }), null);
+  const surfaces = [{ kind: "object", text: "B", share: 0.1 }, { kind: "object", text: "C", share: 0.2 }, { kind: "material", text: "D", share: 0.5 }];
+  same(surfacesOf({ surfaces, planes: { material: new Uint16Array([1, 0, 2, 2]) } }, "material").map((s) => s.text), ["C", "B"]);
   await fails(() => readSurfaces({ surfaces: [], width: 9, height: 9 }, new ArrayBuffer(100)), /cut off/);
 });
 

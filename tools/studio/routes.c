@@ -1,4 +1,5 @@
 /* What is answered where: a row for each address, and what it does. Answers are JSON but where the rows say so. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -239,6 +240,13 @@ static json_t *parent_of(const Model *model, const char *absolute)
     return model && strcmp(parent, model->folder) == 0 ? json_string("") : shown_path(model, parent);
 }
 
+static int is_missing(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
+}
+
+/* Folders below that of what is written are made when they get their first file: until then they are empty. */
 static Reply answer_folder(Request *request)
 {
     const char *asked = request_query(request, "path");
@@ -253,11 +261,15 @@ static Reply answer_folder(Request *request)
         return reply;
     /* paths of entries are relative where they can be */
     json_t *shown = model && strcmp(path, model->folder) == 0 ? json_string("") : shown_path(model, path);
-    const int code = folder_list(path, json_string_value(shown), &access.access, &list, &is_cut, &err);
+    const int is_to_come = is_missing(path) && model && output_is_below(path, model->written);
+    if (is_to_come)
+        list = json_array();
+    const int code =
+        is_to_come ? RETEX_OK : folder_list(path, json_string_value(shown), &access.access, &list, &is_cut, &err);
     if (code) {
         json_decref(list);
         json_decref(shown);
-        return reply_of_error(&err);
+        return is_missing(path) ? reply_error(MHD_HTTP_NOT_FOUND, "there is no folder %s", path) : reply_of_error(&err);
     }
     snprintf(parent, sizeof parent, "%s", path);
     *(strrchr(parent, '/') ? strrchr(parent, '/') : parent) = 0;
@@ -282,6 +294,8 @@ static Reply answer_thumb(Request *request)
         return reply_error(MHD_HTTP_BAD_REQUEST, "size: expected %d to %d", THUMB_LEAST, THUMB_MOST);
     if (reach(request, asked ? asked : "", REACH_LISTED, &access, path, &reply))
         return reply;
+    if (is_missing(path))
+        return reply_error(MHD_HTTP_NOT_FOUND, "there is no file %s", path);
     if (thumbs_get(&request->studio->thumbs, path, &access.access, size, &data, &bytes, etag, &err))
         return reply_of_error(&err);
     const char *seen = request_header(request, "If-None-Match");

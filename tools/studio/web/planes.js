@@ -19,6 +19,12 @@ export function surfaceAt({ width, height, surfaces, planes }, scope, x, y) {
   return surfaces[planes[scope][row * width + column] - 1] || null;
 }
 
+/* All that clicks would take by a scope, the largest first. Of a material that one object alone has, that is the object. */
+export function surfacesOf({ surfaces, planes }, scope) {
+  const numbers = new Set(planes[scope]);
+  return surfaces.filter((_, k) => numbers.has(k + 1)).sort((a, b) => b.share - a.share);
+}
+
 /* Where a surface is: a byte a pixel, 1 inside. */
 export function maskOf({ surfaces, planes }, surface) {
   const number = surfaces.indexOf(surface) + 1;

@@ -32,9 +32,10 @@ export class Preview extends EventTarget {
     this.key = key;
     this.abort?.abort();
     const abort = (this.abort = new AbortController());
-    const isNewScene = this.scene !== scene;
-    this.scene = scene;
-    this.surfaces = this.coordinates = null;
+    const found = JSON.stringify([scene, this.app.project.import.number]), isNewScene = this.scene !== found;
+    this.scene = found;
+    this.coordinates = null;
+    if (isNewScene) this.surfaces = null; // else what is seen stays until the process with other targets tells it anew
     this.after = 0;
     this.answered = {};
     if (isNewScene) this.live = null;

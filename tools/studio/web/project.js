@@ -119,7 +119,7 @@ export function freeName(name, taken) {
 }
 
 /* What a surface is called at first: importers write Mesh_ and underscores. */
-const spoken = (name) => name.replace(/^Mesh_(?=.)/, "").replace(/_+/g, " ");
+export const spoken = (name) => name.replace(/^Mesh_(?=.)/, "").replace(/_+/g, " ");
 
 export function withTarget(project, surface) {
   if (project.targets.length >= TARGETS_MOST) {

@@ -1,8 +1,8 @@
 /* Surfaces: what can be given other textures later. */
 import { button, check, choice, field, h, icon, iconButton, ICONS } from "./dom.js";
 import { CHIPS } from "./preview.js";
-import { SCOPES } from "./planes.js";
-import { TARGETS_MOST, withoutTarget, withRenamed, withTarget } from "./project.js";
+import { SCOPES, surfacesOf } from "./planes.js";
+import { spoken, TARGETS_MOST, withoutTarget, withRenamed, withTarget } from "./project.js";
 
 export const id = "surfaces", title = "Surfaces", hint = "Click what should get other textures: the floor, a wall, the sofa.";
 export const isOpen = (app) => app.hasScene;
@@ -52,13 +52,13 @@ function seen(app) {
   const { surfaces, scope, live } = app.preview;
   if (!surfaces) return h("p", { class: "hint" }, live ? "Looking at what is there…" : "The preview is coming…");
   const taken = new Set(app.project.targets.map((t) => t.select));
-  const list = surfaces.surfaces.filter((s) => s.kind === scope).sort((a, b) => b.share - a.share).slice(0, 30);
+  const list = surfacesOf(surfaces, scope).slice(0, 30);
   return h("details", { id: "seen", open: !!app.seenOpen, ontoggle: (e) => (app.seenOpen = e.target.open) },
     h("summary", {}, `Choose from a list (${list.length})`),
     h("ul", { class: "rows" }, list.map((s, k) => h("li", {}, h("button", { type: "button", class: "row", id: `seen-${k}`, disabled: taken.has(s.text),
       onclick: () => take(app, s), onfocus: () => app.preview.hoverSurface(s), onblur: () => app.preview.hoverSurface(null),
       onmouseenter: () => app.preview.hoverSurface(s), onmouseleave: () => app.preview.hoverSurface(null) },
-    h("span", {}, s.name || s.text), h("small", {}, taken.has(s.text) ? "taken" : percent(s.share)))))));
+    h("span", {}, s.name ? spoken(s.name) : s.text), h("small", {}, taken.has(s.text) ? "taken" : percent(s.share)))))));
 }
 
 export function render(app) {

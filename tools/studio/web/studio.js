@@ -5,7 +5,7 @@ import { HELP } from "./help.js";
 import { Player } from "./player.js";
 import { Preview } from "./preview.js";
 import { SCOPES } from "./planes.js";
-import { redoLabel, undoLabel } from "./project.js";
+import { redoLabel, spoken, undoLabel } from "./project.js";
 import * as open from "./step_open.js";
 import * as view from "./step_view.js";
 import * as surfaces from "./step_surfaces.js";
@@ -147,7 +147,7 @@ preview.addEventListener("pick", ({ detail }) => surfaces.take(app, detail));
 preview.addEventListener("hover", () => {
   const surface = preview.hovered;
   $("#under").hidden = !surface;
-  if (surface) $("#under").textContent = surface.name || surface.text;
+  if (surface) $("#under").textContent = surface.name ? spoken(surface.name) : surface.text;
 });
 
 // ---- keys, buttons, files ----
