@@ -258,3 +258,7 @@ $ retex-render -q --list-targets --size 8x8 shares.pov
 >  50.00%  Oak
 >  25.00%  Ash
 >  25.00%  Pine
+
+# Behind a pane that changes nothing, matte surfaces that a mesh lights give light to what is nearer to them than the
+# pane is to the eye.
+$ S='camera { location <0,1,-4> look_at <0,.6,0> angle 40 } plane { y, 0 pigment { rgb .8 } finish { ambient 0 diffuse 1 } } box { <-1,0,.3>, <1,2,.4> pigment { rgb <.9,.5,.3> } finish { ambient 0 diffuse 1 } } mesh { triangle { <-1,2.4,-2>, <1,2.4,-2>, <1,2.4,0> } triangle { <-1,2.4,-2>, <-1,2.4,0>, <1,2.4,0> } pigment { rgb 1 } finish { emission 3 diffuse 0 } }'; echo "$S" >open.pov; echo "$S plane { z, -3 pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }" >pane.pov; for n in open pane; do retex-render -q --plain --size 16x12 --spp 1024 $n.pov -o $n.exr; done; retex-diff -q pane.exr open.exr --fail-psnr 40
