@@ -5,7 +5,7 @@
 # job of a suite; JOBS of them run at a time. It is one more failure if a job has a bad exit status without a failed
 # test, reports fewer results than its plan, or reports none. Failures and skips are printed with their output. The
 # whole output is kept in $BUILD/tests/log/SUITES/. The last line is `N passed, M failed, K skipped`; exit 1 after a
-# failure.
+# failure. A job that is not done after 20 minutes is killed and fails; those of long and mutants take their time.
 #
 # CI=true: a skip is a failure unless the job's name is listed in tests/lib/may-skip.
 set -u
@@ -50,7 +50,7 @@ jobs_of() {
 
 for suite; do
     case $suite in
-    */*) jobs_of "${suite%%/*}" | grep "^$suite " ;;
+    */*) jobs_of "${suite%%/*}" | grep "^$suite " || { echo "there is no $suite" >&2; : >"$logs/missing"; } ;;
     *) jobs_of "$suite" ;;
     esac
 done >"$logs/jobs"
@@ -60,7 +60,8 @@ export BUILD logs
 run_job='
 name=$1; shift
 log=$logs/$(echo "$name" | tr / .).log
-"$@" >"$log" 2>&1 </dev/null
+case $name in long/* | mutants/*) limit=0 ;; *) limit=${JOB_SECONDS:-1200} ;; esac
+timeout --foreground -k 10 "$limit" "$@" >"$log" 2>&1 </dev/null
 echo "# exit status $?" >>"$log"
 '
 xargs -r -P "$JOBS" -L 1 sh -c "$run_job" job <"$logs/jobs"
@@ -81,7 +82,8 @@ while read -r name _; do
         }
         { told = told "    " $0 "\n" }
         END {
-            if (!planned || results < plan) ended = "ended early, status " status
+            if (status == 124 || status == 137) ended = "killed: it did not end in time"
+            else if (!planned || results < plan) ended = "ended early, status " status
             else if (status != 0 && !failed) ended = "status " status
             if (ended) { failed++; told = told "    " ended "\n" }
             if (failed) printf "FAIL %s\n%s", name, told > "/dev/stderr"
@@ -92,4 +94,4 @@ while read -r name _; do
     passed=$((passed + $1)) failed=$((failed + $2)) skipped=$((skipped + $3))
 done <"$logs/jobs"
 echo "$passed passed, $failed failed, $skipped skipped"
-[ "$failed" = 0 ] && [ "$passed" -gt 0 ]
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ] && [ ! -e "$logs/missing" ]
