@@ -82,7 +82,7 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 
 # What a page loads is one script, which esbuild makes of its first module and all that this imports. The comment at the
 # module's head is the script's. The rule of a script has the module first, then the others.
-BUNDLE = esbuild --bundle $< --minify --charset=utf8 --legal-comments=none --banner:js="$$(sed '/\*\//q' $<)" \
+BUNDLE = esbuild --bundle $< --minify --charset=utf8 --legal-comments=none --banner:$(subst .,,$(suffix $@))="$$(sed '/\*\//q' $<)" \
 	--alias:colors=$(abspath $(BUILD)/gen/colors.js) --log-level=warning --outfile=$@
 WEB_MODULES := $(wildcard tools/web/*.js) $(BUILD)/gen/colors.js
 $(BUILD)/gen/retex-room.js: tools/web/element.js $(WEB_MODULES) tools/rules.mk
@@ -142,7 +142,13 @@ $(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(SERVE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
 # retex-studio has the files of its page inside, as bytes.
-STUDIO_PAGE := $(wildcard tools/studio/web/*.html tools/studio/web/*.css tools/studio/web/*.js)
+STUDIO_PAGE := tools/studio/web/index.html $(BUILD)/gen/studio.css $(BUILD)/gen/studio.js
+$(BUILD)/gen/studio.js: tools/studio/web/studio.js $(wildcard tools/studio/web/*.js) tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY)$(BUNDLE) --format=esm
+$(BUILD)/gen/studio.css: tools/studio/web/studio.css tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY)$(BUNDLE)
 $(BUILD)/gen/studio_page.c: $(STUDIO_PAGE) tools/rules.mk
 	@mkdir -p $(@D)
 	$(SAY){ echo '#include "studio/page.h"'; number=0; for file in $(STUDIO_PAGE); do number=$$((number + 1)); \

@@ -2,7 +2,7 @@
 import { execFileSync } from "node:child_process";
 import { same, test } from "./tap.mjs";
 import * as c from "../../tools/studio/web/commands.js";
-import { addressOf, lookArgs, lookOfLink, pathOf, readLook } from "../../tools/studio/web/look.js";
+import { addressOf, lookArgs, lookOfLink, pathOf, presetOf, readLook } from "../../tools/studio/web/look.js";
 import { emptyProject } from "../../tools/studio/web/project.js";
 import { errorReport, importReport, isLoss } from "../../tools/studio/web/words.js";
 import { player } from "./player.mjs";
@@ -62,6 +62,12 @@ test("a look becomes options, whatever the player writes", () => {
   same(lookOfLink("http://h/t/"), "");
 });
 
+test("a look as a preset names its pictures by their places", () => {
+  const { edit, ...rest } = JSON.parse(presetOf("Floor=files/room.studio/files/oak%25201.jpg;Floor.tiles=files/a.jpg,files//t/b%253bc.jpg;Wall=#aabbcc;warmth=0.3", "/home/u"));
+  same(rest, { "retex-preset": 1 });
+  same(edit, "Floor=/home/u/room.studio/files/oak 1.jpg;Floor.tiles=/home/u/a.jpg,/t/b%3bc.jpg;Wall=#aabbcc");
+});
+
 test("a table of a catalogue", () => {
   const textures = [{ path: "t/oak.jpg", width: 120, output: "oak.jpg" }, { path: "t/a, b.jpg", width: null, output: "a, b.jpg" }];
   same(c.catalogueTable("Floor", textures, ""), 'output,Floor\noak.jpg,:width=120cm t/oak.jpg\n"a, b.jpg","t/a, b.jpg"\n');
@@ -83,6 +89,11 @@ test("what an import tells, in plain words", () => {
 
 test("errors say what to do, and keep the tool's line", () => {
   same(errorReport(["retex-render: No space left on device"]).text.startsWith("The disk is full."), true);
+  const told = (line) => errorReport([`retex-render: error: ${line}`]).text;
+  same(told("out of memory: this takes more than the 512 MB of --max-memory").startsWith("This needs more than the 512 MB of memory"), true);
+  same(told("out of memory for the film").startsWith("There is too little memory"), true);
+  const ended = (signal) => errorReport([`retex-studio: the program was ended by a signal: ${signal}`]).text;
+  same([ended("Killed").includes("memory ran out"), ended("Segmentation fault").includes("Try again")], [true, true]);
   same(errorReport(['{"stage": "render"}', "retex-render: odd: thing", "  "]), { text: "This did not work: odd: thing", asks: true, line: "odd: thing" });
   same(errorReport([], "The render").text, "The render ended without saying why.");
 });

@@ -1,6 +1,6 @@
 /* What the server is asked. All addresses are below the page's own, which has the token. */
 
-export class ServerError extends Error {
+class ServerError extends Error {
   constructor(message, status) {
     super(message);
     this.status = status;
@@ -13,7 +13,7 @@ async function ask(path, options = {}) {
     answer = await fetch(path, { cache: "no-store", ...options });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new ServerError("retex studio does not answer. Start it again; your project is kept.", 0);
+    throw new ServerError("retex studio does not answer.", 0);
   }
   if (answer.ok) return answer;
   const text = await answer.text().catch(() => "");
@@ -32,6 +32,7 @@ export const openModel = (path) => post("api/open", { path });
 export const getFolder = (path) => json(path ? `api/folder?path=${encodeURIComponent(path)}` : "api/folder");
 export const thumbAddress = (path, size = 160) => `api/thumb?path=${encodeURIComponent(path)}&size=${size}`;
 export const getJobs = () => json("api/jobs").then((answer) => answer.jobs || answer);
+export const addTextures = (path) => post("api/textures", { path });
 export const startJob = (tool, args, label) => post("api/jobs", { tool, args, label });
 export const stopJob = (job) => post(`api/jobs/${job}/stop`, {});
 export const startPreview = (scene, args) => post("api/preview/start", { scene, args });
@@ -72,13 +73,20 @@ export async function nextAnswer(kind, after, signal) {
   return { head: JSON.parse(new TextDecoder().decode(data.slice(0, end))), data: data.slice(end + 1) };
 }
 
-/* listeners by the event's name; `open` each time that the server is there (again), `lost` when it is not. */
+const RETRY_AFTER = 1500; // ms
+
+/* listeners by the event's name; `open` each time that the server is there (again), `lost` when it is not, with the
+ * status of its answer, 0 for none. */
 export function listenTo(listeners) {
-  const source = new EventSource("api/events");
-  for (const [name, listener] of Object.entries(listeners)) {
-    if (name === "open") source.addEventListener("open", () => listener());
-    else if (name === "lost") source.addEventListener("error", () => listener());
-    else source.addEventListener(name, (event) => listener(event.data ? JSON.parse(event.data) : {}));
+  const source = new EventSource("api/events"), { open, lost, ...others } = listeners;
+  source.addEventListener("open", () => open());
+  source.addEventListener("error", async () => {
+    source.close(); // the browser's own attempts end at a refusal
+    const status = await fetch("api/state", { cache: "no-store" }).then((answer) => answer.status, () => 0);
+    if (status !== 200) lost(status);
+    setTimeout(() => listenTo(listeners), RETRY_AFTER);
+  });
+  for (const [name, listener] of Object.entries(others)) {
+    source.addEventListener(name, (event) => listener(event.data ? JSON.parse(event.data) : {}));
   }
-  return source;
 }

@@ -40,7 +40,8 @@ export class App extends EventTarget {
     try {
       return await action();
     } catch (error) {
-      if (error.name !== "AbortError") this.say(plainly(error.message), "error");
+      if (error.status === 0) this.meetLoss(0);
+      else if (error.name !== "AbortError") this.say(plainly(error.message), "error");
       return undefined;
     }
   }
@@ -65,10 +66,20 @@ export class App extends EventTarget {
     }
     this.history = newHistory(project);
     this.known = {};
+    await this.addFolders();
     await this.readJobs();
     this.tell("opened");
     this.tell();
     return undefined;
+  }
+
+  /* Those of pictures, which the server shows from now on. */
+  async addFolders() {
+    const { folders } = this.project.textures, wanted = folders.filter((f) => !this.state.textures.includes(f));
+    const gone = [];
+    for (const folder of wanted) await api.addTextures(folder).catch(() => gone.push(folder));
+    if (wanted.length) this.state = await api.getState();
+    if (gone.length) this.say(`The folder of pictures ${gone.join(", ")} is no longer there.`);
   }
 
   /* One step that can be undone. change: a new project, or what makes it of the present one. */
@@ -125,6 +136,7 @@ export class App extends EventTarget {
     } catch (error) {
       this.saved = "unsaved";
       if (error.status === 412) this.meetConflict();
+      else if (error.status === 0) this.meetLoss(0);
       else this.say(`The project could not be saved: ${error.message}`, "error", { label: "Try again", run: () => this.saveNow() });
     }
     this.saving = false;
@@ -150,7 +162,7 @@ export class App extends EventTarget {
   // ---- jobs ----
 
   listen() {
-    let wasLost = false;
+    let isFirst = true;
     api.listenTo({
       job: (job) => this.meetJob(job),
       project: ({ etag }) => {
@@ -162,20 +174,39 @@ export class App extends EventTarget {
         this.modelChanged = true;
         this.tell();
       },
-      open: () => {
-        if (wasLost) this.attempt(() => this.readJobs());
-        this.lost = wasLost = false;
-        this.tell();
-      },
-      lost: () => {
-        this.lost = wasLost = true;
-        this.tell();
-      },
+      open: () => (isFirst ? (isFirst = false) : this.meetAgain()),
+      lost: (status) => this.meetLoss(status),
     });
   }
 
+  /* The server does not answer, or, with a status, is another one that does not know this page. */
+  meetLoss(status) {
+    if (this.ended) return;
+    this.lost = true;
+    this.isMoved = status === 403;
+    this.tell();
+  }
+
+  /* What was changed meanwhile is saved now; jobs have gone on. */
+  async meetAgain() {
+    this.lost = this.isMoved = false;
+    this.tell("again");
+    await this.attempt(() => this.readJobs());
+    if (this.saved !== "saved") await this.saveNow();
+    this.tell();
+  }
+
+  async quit() {
+    await this.saveNow();
+    await api.quit();
+    this.ended = true;
+    this.tell();
+  }
+
   async readJobs() {
-    for (const job of await api.getJobs()) this.meetJob(job);
+    const list = await api.getJobs();
+    for (const job of list) this.jobs.set(job.job, job);
+    for (const job of list) this.meetJob(job);
   }
 
   meetJob(job) {
@@ -191,9 +222,12 @@ export class App extends EventTarget {
 
   meetRender(job) {
     const set = outputOf(job.args), render = this.project.renders.find((r) => r.set === set);
-    if (!render || render.done || job.state !== "done") return;
-    this.amend((p) => withRender(p, set, { done: true, seconds: job.seconds }));
-    this.tell("rendered");
+    if (!render || render.done) return;
+    if ([...this.jobs.values()].findLast((j) => outputOf(j.args) === set) !== job) return; // it has gone on since
+    const done = job.state === "done", part = job.progress || 0, error = job.state === "failed" ? errorReport(job.lines, "The render").text : "";
+    if (!done && render.error === error && render.part === part) return;
+    this.amend((p) => withRender(p, set, done ? { done, seconds: job.seconds, error: "", part: 1 } : { error, part }));
+    if (done) this.tell("rendered");
   }
 
   /* The job that writes this file and is not over. */

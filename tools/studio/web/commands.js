@@ -5,7 +5,7 @@ import { kindOf } from "./project.js";
 
 export const folderOf = (model) => `${model.replace(/^.*\//, "").replace(/\.[^.]+$/, "")}.studio`;
 export const sceneOf = ({ model }) => (kindOf(model) === "scene" ? model : `${folderOf(model)}/scene/scene.pov`);
-export const rendersOf = (model) => `${folderOf(model)}/renders`;
+const rendersOf = (model) => `${folderOf(model)}/renders`;
 
 /* The next free name of a set. */
 export function nextSet({ model, renders }) {
@@ -23,6 +23,8 @@ export function importArgs({ model, import: how }) {
     ...(how.partial ? ["--partial"] : []), "--force", "-o", `${folderOf(model)}/scene`, model,
   ];
 }
+
+export const variantListArgs = ({ model }) => ["--list-variants", model];
 
 const selected = ({ name, select, uv }) => `${name}=${select}${uv ? `:uv=${uv}` : ""}`;
 const targetArgs = ({ targets }) => targets.flatMap((t) => ["-t", selected(t)]);
@@ -93,7 +95,7 @@ export const catalogueArgs = (set, table, root, rest) =>
 // ---- for people ----
 
 /* A word of a shell; quotes only where it needs them. */
-export const shellWord = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
+const shellWord = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
 export const shellLine = (tool, args) => [tool, ...args.map((a) => shellWord(a))].join(" ");
 
 const withoutProgress = (args) => args.filter((a, i) => a !== "--progress" && args[i - 1] !== "--progress");

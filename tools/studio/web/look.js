@@ -51,6 +51,18 @@ export function lookArgs(text) {
   ];
 }
 
+const escaped = (text) => text.replace(/[%;&]/g, (sign) => `%${sign.charCodeAt(0).toString(16)}`);
+
+/* The look as a preset of retex-edit(5), for any folder: its pictures are those of this one. Warmth is the player's. */
+export function presetOf(text, folder) {
+  const absolute = (address) => (address.startsWith(FILES) ? pathOf(address).replace(/^(?!\/)/, `${folder}/`) : address);
+  const statements = text.split(/[;&]/).filter((s) => s && !s.startsWith("warmth=")).map((statement) => {
+    const equals = statement.indexOf("="), value = decoded(statement.slice(equals + 1));
+    return `${statement.slice(0, equals)}=${escaped(value.includes(FILES) ? value.split(",").map(absolute).join() : value)}`;
+  });
+  return JSON.stringify({ "retex-preset": 1, edit: statements.join(";") }, null, 1);
+}
+
 /* The text of the player's link, out of its address. */
 export function lookOfLink(link, key = "room") {
   const part = new URL(link).hash.slice(1).split("&").find((p) => p.startsWith(`${key}=`));

@@ -6,6 +6,7 @@ import { displayed, displayTable } from "./picture.js";
 import { gridLine, isEdge, maskOf, readCoordinates, readSurfaces, surfaceAt } from "./planes.js";
 
 const WIDEST = 960, MOVING_WIDEST = 400, SAMPLES = 64, MOVING_SAMPLES = 1, SETTLE_AFTER = 350; // ms
+const SMOOTHED = [4, 16, SAMPLES]; // of these samples the grain is removed
 const STEP_KEYS = { w: ["forward", 1], s: ["forward", -1], a: ["right", -1], d: ["right", 1], e: ["up", 1], q: ["up", -1] };
 const TURN_KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 export const CHIPS = ["#e0533f", "#2f7fd0", "#e0a100", "#3d9a50", "#9b59c6", "#00a0a0", "#d0659a", "#7a6a50"];
@@ -16,6 +17,7 @@ export class Preview extends EventTarget {
     Object.assign(this, { app, canvas, overlay, label });
     this.table = displayTable();
     this.stops = 0;
+    this.smooth = true;
     this.after = 0;
     this.answered = {};
     this.pressed = new Set();
@@ -56,9 +58,12 @@ export class Preview extends EventTarget {
     return undefined;
   }
 
+  /* Another project: nothing of this one is shown. */
   end() {
     this.abort?.abort();
     this.key = "";
+    this.last = this.live = this.surfaces = null;
+    this.canvas.classList.remove("shown");
   }
 
   tell(name) {
@@ -94,6 +99,7 @@ export class Preview extends EventTarget {
         if (signal.aborted) return;
         this.key = "";
         this.note("");
+        if (error.status === 0) return void this.app.meetLoss(0);
         this.app.say(`The preview has stopped: ${error.message}`, "error", { label: "Start it again", run: () => this.start() });
         return;
       }
@@ -102,31 +108,35 @@ export class Preview extends EventTarget {
 
   show({ head, data }) {
     this.after = head.number;
+    if (this.isMoving && head.denoised) return;
+    if (this.smooth && !head.denoised && !this.isMoving && SMOOTHED.includes(head.picture)) this.send("denoise").catch(() => 0);
+    if (this.isSmooth && !head.denoised) return; // no grain again before it is smooth again
+    this.isSmooth = !!head.denoised;
+    this.paint({ head, data });
+    if (this.isMoving || !head.picture || head.picture >= SAMPLES) this.note("");
+    else this.note(`Getting clearer… ${Math.round((100 * head.picture) / SAMPLES)} %`);
+  }
+
+  paint({ head, data }) {
     const bytes = displayed(data, head.width, head.height, this.table);
     if (!bytes) return;
     Object.assign(this.canvas, { width: head.width, height: head.height });
     this.canvas.getContext("2d").putImageData(new ImageData(bytes, head.width, head.height), 0, 0);
     this.canvas.classList.add("shown");
     this.last = { head, data };
-    const samples = head.picture || 0;
-    if (this.isMoving) this.note("");
-    else if (head.denoised) this.note("");
-    else if (samples >= SAMPLES) this.finishPicture();
-    else this.note(`Getting clearer… ${Math.round((100 * samples) / SAMPLES)} %`);
-    this.tell("picture");
   }
 
-  finishPicture() {
-    this.note("");
-    if (!this.denoising) this.send("denoise").catch(() => 0);
-    this.denoising = true;
+  /* Without grain, as soon as it stands. */
+  setSmooth(on) {
+    this.smooth = on;
+    return this.live && !this.app.paused ? this.settle() : undefined;
   }
 
   /* Brighter or darker, in stops; for the preview alone. */
   expose(stops) {
     this.stops = stops;
     this.table = displayTable(stops);
-    if (this.last) this.show(this.last);
+    if (this.last) this.paint(this.last);
   }
 
   // ---- the camera ----
@@ -149,7 +159,7 @@ export class Preview extends EventTarget {
 
   async view(widest, samples) {
     const [w, h] = this.size(widest);
-    this.denoising = false;
+    this.isSmooth = false;
     await this.send(`view ${w} ${h} ${this.text} ${samples}`);
   }
 

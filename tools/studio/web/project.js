@@ -1,6 +1,6 @@
 /* What a project is: plain data, and its history. Everything that the page lets one do is a change of it. */
 
-export const VERSION = 1;
+const VERSION = 1;
 export const TARGETS_MOST = 8;
 export const LAMPS_MOST = 16;
 
@@ -105,7 +105,7 @@ export const redoLabel = ({ future }) => (future.length ? future[0].label : "");
 // ---- changes ----
 
 /* A name that tools take: letters, digits, spaces and a few signs. */
-export function cleanName(text) {
+function cleanName(text) {
   return text.normalize("NFC").replace(/[^\p{L}\p{N} _\-.+()]/gu, "_").trim().slice(0, 60);
 }
 
@@ -123,7 +123,7 @@ export const spoken = (name) => name.replace(/^Mesh_(?=.)/, "").replace(/_+/g, "
 
 export function withTarget(project, surface) {
   if (project.targets.length >= TARGETS_MOST) {
-    throw new Error(`A picture can have ${TARGETS_MOST} surfaces. Remove one to take another.`);
+    throw new Error(`A picture can have ${TARGETS_MOST} surfaces.`);
   }
   if (project.targets.some((t) => t.select === surface.text)) throw new Error("This surface is in the list already.");
   const name = freeName(spoken(surface.name || "Surface"), project.targets.map((t) => t.name));
@@ -159,6 +159,3 @@ export function finishTrouble({ finishes, lamps }) {
 /* Another state of the render of this set, in a list that may not have it. */
 export const withRender = (project, set, state) =>
   ({ ...project, renders: project.renders.map((r) => (r.set === set ? { ...r, ...state } : r)) });
-
-/* The render that is played: the last one that is complete. */
-export const playable = ({ renders }) => renders.filter((r) => r.done).at(-1) || null;

@@ -1,8 +1,8 @@
 /* Open: a model is chosen, and made into a scene. */
 import * as api from "./api.js";
-import { importArgs } from "./commands.js";
+import { importArgs, variantListArgs } from "./commands.js";
 import { button, choice, field, h, icon, ICONS } from "./dom.js";
-import { kindOf } from "./project.js";
+import { chosenFiles, modelsOf, putModel } from "./files.js";
 import { errorReport, importReport, isLoss } from "./words.js";
 
 const KINDS = { model: "3D model", scene: "scene", set: "rendered room", folder: "folder", picture: "picture" };
@@ -11,24 +11,39 @@ export const id = "open", title = "Open", hint = "Choose a 3D model of a room.";
 
 export const isDone = (app) => !!app.model && (app.hasScene || app.kind === "set");
 
-/* A file from the window is put into the project's folder first. */
-export async function openFile(app, file) {
-  if (!["model", "scene", "set"].includes(kindOf(file.name))) {
-    throw new Error(`“${file.name}” is no model. Choose a file such as .glb, .obj, .fbx, or a scene .pov.`);
+/* Files from outside, { path, file }, are put into a folder of the studio first. */
+export async function openFiles(app, list) {
+  const models = modelsOf(list);
+  if (!models.length) {
+    throw new Error(`${list.length === 1 ? `“${list[0].path}” is no model` : "There is no model among these files"}. Choose a file such as .glb, .obj, .fbx, or a scene .pov, with the files that belong to it.`);
   }
-  app.say(`“${file.name}” is being copied…`);
-  await openPath(app, await api.uploadModel(file.name, file));
+  app.say(list.length > 1 ? `${list.length} files are being copied…` : `“${models[0].path}” is being copied…`);
+  const paths = await putModel(list);
+  if (paths.length === 1) return openPath(app, paths[0]);
+  app.choices = paths;
+  return app.go("open");
 }
 
-export async function openPath(app, path) {
+async function openPath(app, path) {
+  app.choices = null;
   await api.openModel(path);
   await app.load();
   begin(app);
 }
 
+/* Variants of a glTF file, by their names. */
+async function learnVariants(app) {
+  app.variants = [];
+  if (!/\.gl(b|tf)$/i.test(app.project.model)) return;
+  const text = await app.runWell("retex-import", variantListArgs(app.project), "Look for variants").catch(() => "");
+  app.variants = text.split("\n").filter(Boolean);
+  app.tell();
+}
+
 /* What comes first: an import, the view, or playing. */
 export function begin(app) {
   app.listing = null;
+  learnVariants(app);
   if (app.kind === "set") app.go("play");
   else if (app.hasScene) app.go(app.set ? "play" : "view");
   else {
@@ -49,9 +64,20 @@ export const importModel = (app, change = {}) => app.attempt(async () => {
   app.amend((p) => ({ ...p, import: { ...how, done, number: (how.number || 0) + 1, lines: job.lines.slice(0, 40) } }));
   if (done) {
     app.modelChanged = false;
+    app.known = {};
     app.say("The model is ready.");
   }
 });
+
+/* The file is another one than before. */
+export function importAgain(app) {
+  app.modelChanged = false;
+  if (app.kind === "model") return importModel(app);
+  app.known = {};
+  app.player.clear();
+  if (app.kind === "set") return app.attempt(() => app.player.show());
+  return app.amend((p) => ({ ...p, import: { ...p.import, number: (p.import.number || 0) + 1 } }));
+}
 
 function browser(app) {
   const { listing } = app;
@@ -73,18 +99,36 @@ async function browse(app, path) {
   app.tell();
 }
 
+const FILES = ".glb,.gltf,.bin,.obj,.mtl,.fbx,.dae,.3ds,.ply,.stl,.pov,.exr,.retex,image/*";
+
 export function chooser(app, text, primary = true) {
-  const input = h("input", { type: "file", class: "quiet", id: "model-file", tabIndex: -1, "aria-hidden": "true",
-    accept: ".glb,.gltf,.obj,.fbx,.dae,.3ds,.ply,.stl,.pov,.exr,.retex",
-    onchange: (e) => e.target.files[0] && app.attempt(() => openFile(app, e.target.files[0])) });
-  return [button(text, () => input.click(), { class: primary ? "primary" : "", id: `choose-${primary ? "first" : "other"}` }), input];
+  const put = (e) => e.target.files.length && app.attempt(() => openFiles(app, chosenFiles(e.target.files)));
+  const input = (properties) => h("input", { type: "file", class: "quiet", tabIndex: -1, "aria-hidden": "true", onchange: put, multiple: true, ...properties });
+  const files = input({ id: "model-file", accept: FILES }), folder = input({ webkitdirectory: true });
+  return [button(text, () => files.click(), { class: primary ? "primary" : "", id: `choose-${primary ? "first" : "other"}` }),
+    button("A folder…", () => folder.click(), { id: "choose-folder", "aria-label": "Choose a folder with a model and its files" }), files, folder];
 }
+
+/* Of a drop that has several models. */
+function choices(app) {
+  return h("div", { class: "card", role: "status" }, h("div", {}, h("b", {}, "There are several models. Which one?"),
+    h("ul", { class: "rows" }, app.choices.map((path, k) => h("li", {}, button(path.split("/").at(-1), () => app.attempt(() => openPath(app, path)), { class: "row", id: `model-${k}` }, "file"))))));
+}
+
+/* Chosen by a shop in the file, such as colours of a sofa. */
+function variants(app) {
+  const { variant = "" } = app.project.import;
+  if (!app.variants?.length) return null;
+  return field("Variant", choice("import-variant", [["", "as the file is, with all that can be chosen later"], ...app.variants.map((v) => [v, v])], variant, (v) => importModel(app, { variant: v })));
+}
+
+const UNITS = [["", "find out"], ["m", "metres"], ["cm", "centimetres"], ["mm", "millimetres"], ["in", "inches"], ["ft", "feet"]];
 
 function options(app) {
   const how = app.project.import, set = (key) => (value) => app.change(`Change the import`, (p) => ({ ...p, import: { ...p.import, [key]: value } }));
   return h("details", { id: "import-options", open: !!app.optionsOpen, ontoggle: (e) => (app.optionsOpen = e.target.open) },
     h("summary", {}, "Is something wrong with the model?"),
-    field("Its lengths are in", choice("import-unit", [["", "find out"], ["m", "metres"], ["cm", "centimetres"], ["mm", "millimetres"], ["in", "inches"], ["ft", "feet"]], how.unit || "", set("unit")), "If tiles get the wrong size, this is why."),
+    field("Its lengths are in", choice("import-unit", UNITS, how.unit || "", set("unit")), "If tiles get the wrong size, this is why."),
     field("Up is", choice("import-up", [["", "find out"], ["y", "the y axis"], ["z", "the z axis"]], how.up || "", set("up")), "If the room lies on its side."),
     field("Begin", choice("import-camera", [["", "at the file's camera, or a good place"], ["inside", "inside the room"], ["outside", "outside, all of it"], ["cutaway", "above, without the ceiling"]], how.camera || "", set("camera"))),
     field("Lights are", choice("import-lights", [["", "as bright as the file says"], ["0.25", "four times darker"], ["4", "four times brighter"], ["16", "sixteen times brighter"]], how.lights || "", set("lights"))),
@@ -108,15 +152,14 @@ function report(app) {
 }
 
 export function render(app) {
+  if (app.choices) return [choices(app)];
   if (!app.model) {
     return [h("p", {}, "A model is a file such as ", h("b", {}, "room.glb"), ", as Blender, SketchUp and other programs export it."), browser(app)];
   }
   return [
     h("p", { class: "file-name" }, icon(ICONS.file), h("b", {}, app.model.name), ` (${KINDS[app.kind] || "file"})`),
-    app.modelChanged ? h("div", { class: "card", role: "status" }, icon(ICONS.warn), h("div", {}, h("strong", {}, "The file has changed"), h("p", {}, "It was saved anew by another program."),
-      app.kind === "model" ? button("Read it again", () => importModel(app), { id: "import-changed" }) : null)) : null,
     app.importing ? h("div", { class: "card" }, h("span", { class: "spinner" }), h("p", {}, "The model is being read…")) : report(app),
-    app.kind === "model" && !app.importing ? options(app) : null,
+    app.kind === "model" && !app.importing ? [variants(app), options(app)] : null,
     h("div", { class: "buttons" }, chooser(app, "Open another model…", false)),
   ].filter(Boolean);
 }

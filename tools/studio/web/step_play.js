@@ -1,6 +1,7 @@
 /* Play: pictures are put onto surfaces, and appear at once. */
 import * as api from "./api.js";
 import { button, h, icon, ICONS, numberField } from "./dom.js";
+import { chooseFolder } from "./folders.js";
 import { progressOf } from "./step_render.js";
 import { widthOf } from "./widths.js";
 import { kindOf } from "./project.js";
@@ -42,6 +43,19 @@ function roots(app) {
   return h("div", { class: "tabs", role: "group", "aria-label": "Folders of pictures" },
     list.map(([path, name], k) => button(name, () => app.attempt(() => browse(app, path)), { id: `root-${k}`, "aria-pressed": String(open.startsWith(path)) })));
 }
+
+/* A folder of pictures stays in the project. */
+const addFolder = (app) => app.attempt(async () => {
+  const path = await chooseFolder("Where are your pictures?", "picture", "pictures");
+  if (!path) return;
+  await api.addTextures(path);
+  const before = app.state.textures, { textures } = await api.getState(), added = textures.find((t) => !before.includes(t)) || path;
+  app.state.textures = textures;
+  if (!app.project.textures.folders.includes(added)) {
+    app.change("Add a folder of pictures", (p) => ({ ...p, textures: { ...p.textures, folders: [...p.textures.folders, added] } }));
+  }
+  await browse(app, added);
+});
 
 function swatch(app, entry, k) {
   if (entry.kind === "folder") return h("li", {}, button(entry.name, () => app.attempt(() => browse(app, entry.path)), { class: "swatch folder", id: `swatch-${k}` }, "folder"));
@@ -91,7 +105,8 @@ export function render(app) {
     making ? progressOf(making, "Getting the room ready") : null,
     app.player.target ? h("p", { class: "on", role: "status" }, "Pictures go onto ", h("b", {}, app.player.target), ".") : null,
     roots(app),
-    h("div", { class: "buttons" }, button("Add pictures…", () => input.click(), { id: "add-pictures" }, "picture"), input),
+    h("div", { class: "buttons" }, button("Add pictures…", () => input.click(), { id: "add-pictures" }, "picture"), input,
+      button("Add a folder…", () => addFolder(app), { id: "add-folder" }, "folder")),
     gallery(app), width(app),
   ];
 }

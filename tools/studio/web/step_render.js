@@ -2,6 +2,7 @@
 import * as api from "./api.js";
 import { cropArgs, folderOf, nextSet, renderArgs, TRIAL_SAMPLES, trialArgs } from "./commands.js";
 import { button, check, choice, field, h, icon, iconButton, ICONS, numberField } from "./dom.js";
+import { partPixels } from "./crop.js";
 import { bytesText, durationText, estimate, trialOf } from "./estimate.js";
 import { addressOf } from "./look.js";
 import { withRender } from "./project.js";
@@ -18,7 +19,7 @@ const QUALITIES = [["8", "Sketch"], ["64", "Good"], ["256", "Fine"], ["1024", "F
 const put = (app, change) => app.change("Change the render", (p) => ({ ...p, render: { ...p.render, ...change } }));
 const unfinished = (app) => app.project.renders.find((r) => !r.done);
 
-export const startRender = (app) => app.attempt(async () => {
+const startRender = (app) => app.attempt(async () => {
   const set = nextSet(app.project), args = renderArgs(app.project, set);
   app.amend((p) => ({ ...p, renders: [...p.renders, { set, args, done: false, when: new Date().toISOString() }] }));
   await goOn(app, { set, args });
@@ -26,13 +27,10 @@ export const startRender = (app) => app.attempt(async () => {
 
 /* From where it was, or from the start. */
 async function goOn(app, { set, args }) {
+  app.amend((p) => withRender(p, set, { error: "" }));
   await app.saveNow();
   const job = await app.run("retex-render", args, "Render");
-  if (job.state === "failed") {
-    const error = errorReport(job.lines, "The render");
-    app.amend((p) => withRender(p, set, { error: error.text }));
-    throw new Error(error.text);
-  }
+  if (job.state === "failed") throw new Error(errorReport(job.lines, "The render").text);
 }
 
 /* Two small renders: a fifth and a third of the width, at few samples. */
@@ -58,19 +56,25 @@ const guess = (app) => app.attempt(async () => {
 /* An estimate holds for other sizes and samples, not for other surfaces. */
 const keyOf = ({ project: { targets, lamps, finishes } }) => JSON.stringify([targets, lamps, finishes]);
 
+const partFile = (app) => `${folderOf(app.project.model)}/trials/part.png`;
 const tryPart = (app) => app.attempt(async () => {
-  const { width, height } = app.project.render, w = Math.min(width, 320), hh = Math.min(height, 240);
-  const file = `${folderOf(app.project.model)}/trials/part.png`;
-  app.known.trying = true;
+  const { crop } = app, args = cropArgs(app.project, partPixels(crop.part, app.project.render), partFile(app));
+  const job = await app.run("retex-render", args, "Try a part");
+  if (job.state === "failed") throw new Error(errorReport(job.lines, "The render").text);
+  if (job.state !== "done") return;
+  app.known.part = `${addressOf(partFile(app))}?${job.job}`;
+  crop.show(app.known.part);
   app.tell();
-  try {
-    await app.runWell("retex-render", cropArgs(app.project, [(width - w) >> 1, (height - hh) >> 1, w, hh], file), "Try a part");
-    app.known.part = `${addressOf(file)}?${Date.now()}`;
-  } finally {
-    app.known.trying = false;
-    app.tell();
-  }
 });
+
+/* The part that is drawn on the picture, rendered in full quality. */
+function trial(app) {
+  const job = app.jobOf(partFile(app)), [, , width, height] = partPixels(app.crop.part, app.project.render);
+  return h("div", { class: "forecast" }, h("p", { class: "hint" }, `Draw a part on the picture to see it in this quality first: now ${width} × ${height} pixels.`),
+    job ? [progressOf(job, "The part"), button("Stop", () => app.stop(job.job), { id: "stop-part", disabled: !!job.stopping })]
+      : h("div", { class: "buttons" }, button("Try this part", () => tryPart(app), { id: "try-part" })),
+    app.known.part ? h("img", { class: "part", src: app.known.part, alt: "The part at full size" }) : null);
+}
 
 function settings(app) {
   const { width, height, samples, noise, denoise } = app.project.render, size = `${width}x${height}`, own = !SIZES.some(([v]) => v === size) || app.ownSize;
@@ -90,15 +94,17 @@ function settings(app) {
   ];
 }
 
+function told(app) {
+  const known = app.known.estimate;
+  return known?.key === keyOf(app) ? estimate(known.trials, app.project.render) : null;
+}
+
 function forecast(app) {
-  const known = app.known.estimate, fits = known?.key === keyOf(app);
-  const told = fits ? estimate(known.trials, app.project.render) : null, least = app.project.render.noise > 0 ? "at most " : "about ";
+  const expected = told(app), least = app.project.render.noise > 0 ? "at most " : expected?.seconds >= 1 ? "about " : "";
   return h("div", { class: "forecast" },
-    told ? h("dl", {}, h("dt", {}, "Time"), h("dd", {}, least + durationText(told.seconds)), h("dt", {}, "Memory"), h("dd", {}, bytesText(told.memory)), h("dt", {}, "On the disk"), h("dd", {}, bytesText(told.bytes))) : null,
+    expected ? h("dl", {}, h("dt", {}, "Time"), h("dd", {}, least + durationText(expected.seconds)), h("dt", {}, "Memory"), h("dd", {}, bytesText(expected.memory)), h("dt", {}, "On the disk"), h("dd", {}, bytesText(expected.bytes))) : null,
     h("div", { class: "buttons" },
-      button(app.known.guessing ? "Trying out…" : "How long will it take?", () => guess(app), { id: "guess", disabled: !!app.known.guessing }),
-      button(app.known.trying ? "Rendering the middle…" : "Try the middle", () => tryPart(app), { id: "try-part", disabled: !!app.known.trying })),
-    app.known.part ? h("img", { class: "part", src: app.known.part, alt: "The middle of the picture at full size" }) : null);
+      button(app.known.guessing ? "Trying out…" : "How long will it take?", () => guess(app), { id: "guess", disabled: !!app.known.guessing })));
 }
 
 /* What is left, by what was done; nothing before it is known. */
@@ -114,13 +120,13 @@ export function progressOf(job, text) {
 }
 
 function row(app, render) {
-  const job = app.jobOf(render.set), name = `Render ${/(\d+)\.exr$/.exec(render.set)?.[1] || ""}`;
+  const job = app.jobOf(render.set), expected = job && told(app), name = `Render ${/(\d+)\.exr$/.exec(render.set)?.[1] || ""}`;
   const size = render.args?.[render.args.indexOf("--size") + 1]?.replace("x", " × ") || "";
   const away = () => app.change(`Remove ${name}`, (p) => ({ ...p, renders: p.renders.filter((r) => r.set !== render.set) }));
   return h("li", { class: "card" }, h("div", {}, h("b", {}, name), h("small", {}, ` ${size}`),
-    job ? [progressOf(job, "Rendering"), button("Stop", () => app.stop(job.job), { id: `stop-${job.job}` })]
+    job ? [progressOf(job, "Rendering"), expected ? h("small", {}, `${bytesText(expected.memory)} of memory, ${bytesText(expected.bytes)} on the disk`) : null, button(job.stopping ? "Pausing…" : "Pause", () => app.stop(job.job), { id: `stop-${job.job}`, disabled: !!job.stopping }, "pause")]
       : render.done ? h("p", { class: "good" }, icon(ICONS.done), `Done${render.seconds ? ` in ${durationText(render.seconds)}` : ""}`)
-        : [h("p", {}, render.error || "Stopped before it was complete. It goes on from where it was."),
+        : [h("p", {}, render.error || `Paused${render.part ? ` at ${Math.round(100 * render.part)} %` : ""}. It goes on from there, also on another day.`),
           button("Go on", () => app.attempt(() => goOn(app, render)), { id: `go-on-${name}`, class: "primary" }, "go")]),
   job ? null : iconButton(`Remove ${name} from the list`, "remove", away));
 }
@@ -128,14 +134,14 @@ function row(app, render) {
 export function render(app) {
   const { renders } = app.project;
   return [
-    settings(app), forecast(app),
+    settings(app), forecast(app), trial(app),
     renders.length ? [h("h3", {}, "Renders"), h("ul", { class: "renders" }, [...renders].reverse().map((r) => row(app, r)))] : null,
   ];
 }
 
 export function next(app) {
   const open = unfinished(app), job = open && app.jobOf(open.set);
-  if (job) return { label: "Rendering…", disabled: true, why: "You can go on looking round; or stop it, and go on later." };
+  if (job) return { label: "Rendering…", disabled: true, why: "You can go on looking round; or pause it, and go on another day." };
   const last = app.project.renders.at(-1);
   const isCurrent = last?.done && JSON.stringify(last.args) === JSON.stringify(renderArgs(app.project, last.set));
   if (isCurrent) return { label: "Play with textures", step: "play" };

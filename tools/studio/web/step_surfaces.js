@@ -17,10 +17,13 @@ const WORDS = {
 const PROJECTIONS = [["", "automatic"], ["planar", "flat"], ["box", "around a box"], ["cylinder", "around a pillar"], ["model", "as the model says"]];
 const percent = (share) => (share >= 0.01 ? `${Math.round(100 * share)} %` : "less than 1 %");
 
+const FULL = `${TARGETS_MOST} surfaces are chosen, the most that a picture can have. Remove one to take another.`;
+
 export const take = (app, surface) => app.attempt(async () => {
+  if (app.project.targets.length >= TARGETS_MOST) return app.say(FULL, "error");
   if (!surface) throw new Error("There is nothing here that can be taken this way. Try another kind of “What a click takes”.");
   app.change(`Take ${surface.name || "a surface"}`, (p) => withTarget(p, surface));
-  app.say(`“${app.project.targets.at(-1).name}” is in the list. Give it a name you like.`);
+  return app.say(`“${app.project.targets.at(-1).name}” is in the list. Give it a name you like.`);
 });
 
 function scopes(app) {
@@ -67,6 +70,7 @@ export function render(app) {
     scopes(app), seen(app),
     h("h3", {}, `Chosen surfaces (${targets.length} of ${TARGETS_MOST} at most)`),
     targets.length ? h("ol", { class: "targets" }, targets.map((t, k) => row(app, t, k))) : h("p", { class: "empty" }, icon(ICONS.surfaces), "Nothing yet. Click a surface in the picture."),
+    targets.length >= TARGETS_MOST ? h("div", { class: "card" }, icon(ICONS.warn), h("p", {}, FULL)) : null,
     targets.length ? [check("grid", "Show a grid of metres", !!app.grid, (on) => {
       app.grid = on;
       app.tell("step");

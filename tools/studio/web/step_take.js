@@ -1,8 +1,8 @@
 /* Take away: pictures, files and pages for others. */
 import * as api from "./api.js";
 import { catalogueArgs, catalogueTable, commandsOf, folderOf, lookWithout, packArgs, pageOf, pictureArgs } from "./commands.js";
-import { button, choice, field, h, icon, iconButton, ICONS } from "./dom.js";
-import { addressOf, readLook } from "./look.js";
+import { button, choice, download, field, h, icon, iconButton, ICONS } from "./dom.js";
+import { addressOf, presetOf, readLook } from "./look.js";
 import { freeName } from "./project.js";
 import { widthOf } from "./widths.js";
 
@@ -106,8 +106,9 @@ function presets(app) {
     app.change(`Show ${preset.name}`, (p) => ({ ...p, look: preset.look }));
     app.attempt(() => app.player.putLook());
   };
-  return h("section", { class: "card", "aria-labelledby": "presets-title" }, h("div", {}, h("h3", { id: "presets-title" }, "Looks"), h("p", { class: "hint" }, "Keep how the room looks, to come back to it."),
+  return h("section", { class: "card", "aria-labelledby": "presets-title" }, h("div", {}, h("h3", { id: "presets-title" }, "Looks"), h("p", { class: "hint" }, "Keep how the room looks, to come back to it. A downloaded one is for retex-combine: --preset FILE."),
     h("ul", { class: "presets" }, list.map((preset, k) => h("li", {}, h("input", { type: "text", id: `preset-${k}`, value: preset.name, "aria-label": `Name of look ${k + 1}`, onchange: rename(preset) }),
+      iconButton(`Download ${preset.name}`, "take", () => download(`${preset.name}.json`, presetOf(preset.look, app.model.folder))),
       button("Show", () => use(preset), { id: `show-${k}`, "aria-label": `Show ${preset.name}` }),
       iconButton(`Remove ${preset.name}`, "remove", () => app.change(`Remove ${preset.name}`, (p) => ({ ...p, presets: p.presets.filter((q) => q !== preset) })))))),
     button("Keep this look", keep, { id: "keep-look" })));

@@ -1,7 +1,7 @@
 /* View: where the picture is taken from. */
 import { angled, ANGLE_LEAST, ANGLE_MOST } from "./camera.js";
 import { button, choice, field, h, iconButton } from "./dom.js";
-import { freeName } from "./project.js";
+import { freeName, spoken } from "./project.js";
 
 export const id = "view", title = "View", hint = "Move until the picture shows what you want.";
 export const isOpen = (app) => app.hasScene;
@@ -37,6 +37,18 @@ function angle(app) {
   return h("div", { class: "field slider" }, h("label", { for: "angle" }, "How wide"), input, out);
 }
 
+/* Those that the file has, where there are several. */
+function own(app) {
+  const cameras = app.preview.live?.cameras || [];
+  if (cameras.length < 2) return null;
+  const go = (name) => {
+    const camera = cameras.find((c) => c.name === name);
+    if (camera) app.change(`Go to ${name}`, (p) => ({ ...p, view: plain(camera) }));
+  };
+  const now = cameras.find((c) => same(c, app.project.view))?.name || "";
+  return field("Cameras of the file", choice("file-camera", [["", "choose one"], ...cameras.map((c) => [c.name, spoken(c.name)])], now, go));
+}
+
 export function render(app) {
   const brightness = h("input", { id: "brightness", type: "range", min: -4, max: 4, step: 0.25, oninput: (e) => app.preview.expose(Number(e.target.value)) });
   brightness.value = app.preview.stops;
@@ -49,6 +61,7 @@ export function render(app) {
     angle(app),
     h("div", { class: "field slider" }, h("label", { for: "brightness" }, "Brightness"), brightness, h("span", {})),
     field("Dragging", choice("drag-mode", [["", "as fits the place"], ["look", "turns my head"], ["round", "goes round the room"]], app.preview.mode || "", (m) => (app.preview.mode = m))),
+    own(app),
     h("h3", {}, "Views to come back to"),
     saved(app),
     h("div", { class: "buttons" },

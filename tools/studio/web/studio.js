@@ -1,6 +1,10 @@
-/* retex studio: the page. Steps on the left, the picture in the middle, one next thing to do. */
+/*! The page of retex studio. Licence: Apache-2.0. */
+/* Steps on the left, the picture in the middle, one next thing to do. */
 import { App } from "./app.js";
+import { bar, endedText, quitText } from "./bar.js";
+import { Crop } from "./crop.js";
 import { button, h, icon, iconButton, ICONS, refill } from "./dom.js";
+import { droppedFiles } from "./files.js";
 import { HELP } from "./help.js";
 import { Player } from "./player.js";
 import { Preview } from "./preview.js";
@@ -21,6 +25,10 @@ const $ = (selector) => document.querySelector(selector);
 const app = new App();
 const preview = (app.preview = new Preview(app, { canvas: $("#picture"), overlay: $("#overlay"), label: $("#picture-note") }));
 const player = (app.player = new Player(app, $("#player"), (files, target) => play.takeFiles(app, files, target)));
+app.crop = new Crop($("#crop"), $("#crop-frame"), () => {
+  app.known.part = "";
+  draw();
+});
 const current = () => STEPS.find((s) => s.id === app.step);
 const isOpen = (step) => !step.isOpen || step.isOpen(app);
 const isPlaying = () => ["play", "take"].includes(app.step);
@@ -61,18 +69,25 @@ function drawTop() {
 }
 
 function drawStage() {
-  const shows = isPlaying() && app.set ? "player" : app.hasScene ? "preview" : "welcome";
+  const shows = isPlaying() && app.set ? "player" : app.hasScene || (app.importing && preview.last) ? "preview" : "welcome";
   Object.assign(document.body.dataset, { stage: shows, step: app.step });
   for (const name of ["welcome", "preview", "player"]) $(`#stage-${name}`).hidden = name !== shows;
   $("#player-wait").hidden = !!player.room;
+  $("#smooth").setAttribute("aria-pressed", String(preview.smooth));
   $("#pause").setAttribute("aria-pressed", String(!!app.paused));
   preview.fit();
 }
 
-function drawConflict() {
-  const dialog = $("#conflict");
-  if (app.conflict && !dialog.open) dialog.showModal();
-  if (!app.conflict && dialog.open) dialog.close();
+const showDialog = (dialog, shows) => shows !== dialog.open && (shows ? dialog.showModal() : dialog.close());
+
+function drawBar() {
+  const body = bar(app), place = $("#bar"), key = body ? body.map((e) => e.outerHTML).join() : "";
+  place.hidden = !body;
+  if (key !== place.dataset.key) refill(place, body || []); // not to be read again by screen readers
+  place.dataset.key = key;
+  showDialog($("#conflict"), !!app.conflict && !app.lost);
+  if (app.ended && !$("#ended").open) refill($("#ended-text"), endedText(app));
+  showDialog($("#ended"), !!app.ended);
 }
 
 let frame = 0;
@@ -83,7 +98,7 @@ function draw() {
     drawSteps();
     drawPanel();
     drawStage();
-    drawConflict();
+    drawBar();
   });
 }
 
@@ -131,6 +146,8 @@ app.addEventListener("change", () => {
   const { project } = app, key = JSON.stringify([app.hasScene && project.import.number, project.view, project.targets.map((t) => [t.select, t.uv]), project.render.width / project.render.height]);
   if (key !== app.previewKey) {
     app.previewKey = key;
+    app.known.part = "";
+    app.crop.show("");
     followPreview();
   } else preview.drawOverlay();
 });
@@ -139,6 +156,7 @@ app.addEventListener("step", () => {
   enterStep();
 });
 app.addEventListener("opened", () => preview.end());
+app.addEventListener("again", () => followPreview());
 app.addEventListener("rendered", () => app.say("The render is complete.", "note"));
 app.addEventListener("message", showMessage);
 preview.addEventListener("live", draw);
@@ -173,11 +191,23 @@ $("#help-button").addEventListener("click", () => {
   $("#help").hidden = !$("#help").hidden;
   $("#help-button").setAttribute("aria-expanded", String(!$("#help").hidden));
 });
+$("#smooth").append(icon(ICONS.smooth));
+$("#smooth").addEventListener("click", () => app.attempt(() => preview.setSmooth(!preview.smooth)).then(draw));
 $("#pause").append(icon(ICONS.pause));
 $("#pause").addEventListener("click", () => app.attempt(() => preview.pause(!app.paused)).then(draw));
 $("#take-over").addEventListener("click", () => app.attempt(() => app.takeOver()));
 $("#reload").addEventListener("click", () => app.attempt(() => app.load()));
-$("#conflict").addEventListener("cancel", (event) => event.preventDefault());
+for (const id of ["#conflict", "#ended"]) $(id).addEventListener("cancel", (event) => event.preventDefault());
+$("#quit-button").append(icon(ICONS.quit));
+$("#quit-button").addEventListener("click", () => {
+  refill($("#quit-text"), quitText(app));
+  $("#quit").showModal();
+});
+$("#quit-stay").addEventListener("click", () => $("#quit").close());
+$("#quit-end").addEventListener("click", () => {
+  $("#quit").close();
+  app.attempt(() => app.quit());
+});
 
 const stage = $("#stage");
 const draggedPath = (event) => event.dataTransfer.types.includes("text/retex-path");
@@ -198,11 +228,14 @@ stage.addEventListener("drop", (event) => {
   if (draggedPath(event)) {
     const { room } = player, index = room?.targetAt?.(event.clientX, event.clientY) ?? -1;
     play.dropPath(app, event.dataTransfer.getData("text/retex-path"), index >= 0 ? room.targets[index] : player.target);
-  } else if (!isPlaying() && event.dataTransfer.files.length) app.attempt(() => open.openFile(app, event.dataTransfer.files[0]));
+  } else if (!isPlaying() && event.dataTransfer.files.length) {
+    const files = droppedFiles(event.dataTransfer);
+    app.attempt(async () => open.openFiles(app, await files));
+  }
 }, true);
 
 addEventListener("beforeunload", (event) => {
-  if (app.saved !== "saved" && app.model) event.preventDefault();
+  if (app.saved !== "saved" && app.model && !app.ended) event.preventDefault();
 });
 document.addEventListener("visibilitychange", () => {
   if (!preview.live || isPlaying() || app.paused) return;

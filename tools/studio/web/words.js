@@ -26,8 +26,11 @@ const IMPORT = [
 ];
 
 const ERRORS = [
-  [/too little memory|max-memory|out of memory/i, "There is too little memory for this. Choose a smaller picture, or close other programs."],
-  [/no space left|disk is full/i, "The disk is full. Make room on it, then try again; nothing was lost."],
+  [/more than the (\d+ .B) of --max-memory/, "This needs more than the $1 of memory that it may have. Choose a smaller size in the step Render or fewer lamps and finishes in the step Light, or start retex studio with more: --max-memory."],
+  [/too little memory|max-memory|out of memory/i, "There is too little memory for this. Close other programs, or choose a smaller size in the step Render."],
+  [/ended by a signal: Killed/, "The system has ended this, mostly since memory ran out. Close other programs or choose a smaller size in the step Render, then go on."],
+  [/ended by a signal|ended by SIG/, "This was ended by another program, or by a mistake of its own. Try again; if it happens again, tell the makers of retex."],
+  [/no space left|disk is full|quota exceeded|file too large/i, "The disk is full. Make room on it, then try again; nothing was lost."],
   [/max-time|took longer than/i, "This took longer than allowed. Start it again to go on from where it was."],
   [/another project|another render|other options/i, "The unfinished render is of other settings. Start a new one."],
   [/more than 8 combinations|combinations/i, "There are too many combinations of finishes and lamps. Take some away in the step Light."],
