@@ -300,7 +300,7 @@ static int prepare(const RetexBandStore *store, RetexBandStoreScratch *scratch, 
     const size_t bytes = retex_chunk_bytes(shape);
 
     if (scratch)
-        scratch->chunk.zip.zlib.fast = store->fast;
+        scratch->chunk.zip.zlib.effort = store->fast ? RETEX_ZLIB_HURRY : RETEX_ZLIB_SMALL;
     if (!scratch || !retex_chunk_reserve(&scratch->chunk, shape))
         return 0;
     if (scratch->packed_bytes < bytes) {

@@ -271,7 +271,8 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
     for (int i = 0; work.scratch && i < nthreads; i++)
-        work.scratch[i].zip.zlib.fast = encoding->compress == RETEX_EXR_QUICKLY;
+        work.scratch[i].zip.zlib.effort =
+            encoding->compress == RETEX_EXR_QUICKLY ? RETEX_ZLIB_HURRY : RETEX_ZLIB_SMALL;
     if (work.scratch && work.failed) {
         choose_compression(&work, nthreads);
         retex_parallel(nthreads, encoding->nbands, encode_job, &work);

@@ -13,28 +13,35 @@
  * 5 % in ten times. */
 enum { ZLIB_LEVEL = 3, ZLIB_LEVEL_MOST = 12 };
 
-/* Levels 1 and 2 are faster still, but their output depends on the address of their memory: the same picture would not
- * always make the same file. Blocks are of 16384 codes, so that the Huffman codes follow the data. */
+/* Level 0 has one fixed table of Huffman codes. Levels 1 and 2 are faster than 3, but their output depends on the address
+ * of their memory: the same picture would not always make the same file. Blocks of level 3 are of 16384 codes, so that the Huffman codes follow the data. */
 enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
 
-typedef struct RetexDeflater {
+typedef struct Deflater {
     struct isal_zstream stream;
     unsigned char level[LEVEL_BYTES];
-} RetexDeflater;
+} Deflater;
 
-static size_t deflate_piece(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes,
-                            size_t count, int is_last)
+/* By ISA-L at its level 0 or LEVEL. format: IGZIP_DEFLATE or IGZIP_ZLIB; flush: NO_FLUSH where the stream ends here, or
+ * FULL_FLUSH. */
+static size_t deflate_by_isal(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
+                              int level, int format, int flush)
 {
-    struct isal_zstream *stream = &deflater->stream;
-    if (count > UINT32_MAX || capacity > UINT32_MAX)
+    Deflater *deflater = count <= UINT32_MAX && capacity <= UINT32_MAX ? malloc(sizeof *deflater) : NULL;
+    if (!deflater)
         return 0;
+    struct isal_zstream *stream = &deflater->stream;
     isal_deflate_stateless_init(stream);
     stream->hist_bits = 0; /* search the whole window of 32 KB; isal_deflate_stateless_init leaves the old value */
-    stream->level = LEVEL, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
-    stream->end_of_stream = is_last, stream->flush = is_last ? NO_FLUSH : FULL_FLUSH;
+    stream->level = (uint32_t)level, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
+    stream->gzip_flag = (uint16_t)format;
+    stream->end_of_stream = flush == NO_FLUSH, stream->flush = (uint16_t)flush;
     stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
     stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
-    return isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0 ? stream->total_out : 0;
+    const int done = isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0;
+    const size_t packed_bytes = done ? stream->total_out : 0;
+    free(deflater);
+    return packed_bytes;
 }
 
 int retex_zlib_open(RetexZlib *zlib)
@@ -50,35 +57,16 @@ void retex_zlib_close(RetexZlib *zlib)
 {
     libdeflate_free_compressor(zlib->compressor);
     libdeflate_free_decompressor(zlib->decompressor);
-    *zlib = (RetexZlib){.fast = zlib->fast};
-}
-
-/* Level 0 of ISA-L has one fixed table of Huffman codes; of the same bytes it always makes the same stream. */
-static size_t compress_fast(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count)
-{
-    struct isal_zstream *stream = malloc(sizeof *stream);
-    size_t packed_bytes = 0;
-
-    if (!stream || count > UINT32_MAX || capacity > UINT32_MAX)
-        goto done;
-    isal_deflate_stateless_init(stream);
-    stream->hist_bits = 0; /* as below */
-    stream->gzip_flag = IGZIP_ZLIB;
-    stream->end_of_stream = 1, stream->flush = NO_FLUSH;
-    stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
-    stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
-    if (isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0)
-        packed_bytes = stream->total_out;
-done:
-    free(stream);
-    return packed_bytes;
+    *zlib = (RetexZlib){.effort = zlib->effort};
 }
 
 size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capacity, const unsigned char *bytes,
                            size_t count)
 {
-    return zlib->fast ? compress_fast(packed, capacity, bytes, count)
-                      : libdeflate_zlib_compress(zlib->compressor, bytes, count, packed, capacity);
+    return zlib->effort == RETEX_ZLIB_SMALL
+               ? libdeflate_zlib_compress(zlib->compressor, bytes, count, packed, capacity)
+               : deflate_by_isal(packed, capacity, bytes, count, zlib->effort == RETEX_ZLIB_FAST ? LEVEL : 0,
+                                 IGZIP_ZLIB, NO_FLUSH);
 }
 
 unsigned char *retex_zlib_compress_most(const unsigned char *bytes, size_t count, size_t *packed_bytes)
@@ -105,8 +93,5 @@ size_t retex_deflate_bound(size_t bytes)
 
 size_t retex_deflate(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count, int is_last)
 {
-    RetexDeflater *deflater = malloc(sizeof *deflater);
-    const size_t packed_bytes = deflater ? deflate_piece(deflater, packed, capacity, bytes, count, is_last) : 0;
-    free(deflater);
-    return packed_bytes;
+    return deflate_by_isal(packed, capacity, bytes, count, LEVEL, IGZIP_DEFLATE, is_last ? NO_FLUSH : FULL_FLUSH);
 }

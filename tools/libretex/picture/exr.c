@@ -96,7 +96,7 @@ static void put_little(unsigned char *to, uint64_t value, int bytes)
 /* Encodes the chunks of a strip one after another. Returns their bytes, or 0 where memory is short. */
 static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, const float *rows)
 {
-    RetexChunkScratch scratch = {.raw = NULL};
+    RetexChunkScratch scratch = {.zip.zlib.effort = RETEX_ZLIB_FAST};
     size_t at = 0;
 
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
