@@ -292,7 +292,7 @@ static void paint_light(RetexImage *im, int kind, int width, int height)
     }
 }
 
-/* OpenImageIO reads the very halves; as many bytes as a set's take, but for other strips. */
+/* OpenImageIO reads the very halves; at most 8 % more bytes than in a set. */
 static void test_exr_of_any_light(void **state)
 {
     (void)state;
@@ -323,7 +323,7 @@ static void test_exr_of_any_light(void **state)
         const double raw = 600e3 + 1000;
         printf("# light %d: %.4f, in a set %.4f\n", kind, (double)light.count / raw, (double)set.count / raw);
         assert_true((double)light.count < most[kind] * raw);
-        assert_true((double)light.count < 1.05 * (double)set.count + 100); /* for its head, which names its colours */
+        assert_true((double)light.count < 1.08 * (double)set.count + 2000); /* a head and less effort */
         free(set.data);
         free(light.data);
         retex_image_free(&im);
