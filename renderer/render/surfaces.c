@@ -122,16 +122,20 @@ static int find_face(Finding *f, const ShownSurface *shown)
 
 /* ---- by scope ---- */
 
-static const char *name_of_object(const Scene *scene, const ObjectPart *part)
+/* That of its material, where the object has none; or NULL. */
+static const char *name_of_object(const Finding *f, const ShownSurface *shown)
 {
-    return part->idents ? scene_name_of(scene, part->idents->name) : NULL;
+    const char *name = shown->part.idents ? shown->part.idents->name : NULL;
+    if (!name && shown->part.texture)
+        name = materials_name(&f->materials, shown->part.texture);
+    return name ? scene_name_of(f->window->scene, name) : NULL;
 }
 
 static int add_object(Finding *f, const ShownSurface *shown)
 {
     char text[SELECTOR_MAX];
     return shown_selector(text, shown, SCOPE_OBJECT, &f->materials, NULL)
-               ? add(f, text, SCOPE_OBJECT, name_of_object(f->window->scene, &shown->part))
+               ? add(f, text, SCOPE_OBJECT, name_of_object(f, shown))
                : 0;
 }
 

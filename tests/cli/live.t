@@ -8,12 +8,12 @@ $ /usr/bin/python3 -B "$TESTS/live.py" same_as_render
 > (0, b'')
 $ /usr/bin/python3 -B "$TESTS/live.py" surfaces
 > material #5  True True
-> material #1  True True
+> material #1 Floor True True
 > material #2  True True
 > material #3  True True
 > material #4  True True
 > object #5  True True
-> object #1  True True
+> object #1 Floor True True
 > object #2  True True
 > object #3  True True
 > object #4  True True
