@@ -33,8 +33,8 @@ jobs_of() {
     python) for t in tests/python/test_*.py; do
             [ ! -e "$t" ] || { n=${t##*/}; n=${n%.py}; echo "python/${n#test_} /usr/bin/python3 -B $t"; }
         done ;;
-    web) for t in tests/web/test_*.mjs; do
-            [ ! -e "$t" ] || { n=${t##*/test_}; echo "web/${n%.mjs} node $t"; }
+    web) for t in tests/web/test_*.mjs tests/web/test_*.sh; do
+            [ ! -e "$t" ] || { n=${t##*/test_}; case $t in *.sh) run=sh ;; *) run=node ;; esac; echo "web/${n%.*} $run $t"; }
         done ;;
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }

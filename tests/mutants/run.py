@@ -68,6 +68,8 @@ def test_file(test):
     if suite not in ending:
         return None
     name = f"test_{name}" if suite in ("python", "web") and name else name
+    if suite == "web" and os.path.exists(os.path.join(ROOT, "tests", "web", f"{name}.sh")):
+        return os.path.join("tests", "web", f"{name}.sh")
     return os.path.join("tests", suite, name + ending[suite]) if name else os.path.join("tests", suite)
 
 

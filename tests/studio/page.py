@@ -6,98 +6,26 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-TOP = os.path.dirname(os.path.dirname(HERE))
-sys.path[:0] = [f"{TOP}/tests/web", HERE]
-from page import Page, finish, result  # noqa: E402
-
-
-class Server:
-    """A retex-studio without a model, at home in a folder."""
-
-    folder = "room.studio"
-
-    def __init__(self, work, textures):
-        self.work, self.project_file = work, f"{work}/room.studio.json"
-        address = f"{work}/.address"
-        self.process = subprocess.Popen(["retex-studio", "--no-browser", "--textures", textures, "-o", address], cwd=work,
-                                        env={**os.environ, "HOME": work})
-        while not os.path.exists(address):
-            if self.process.poll() is not None:
-                raise SystemExit("retex-studio has ended")
-            time.sleep(0.02)
-        with open(address, encoding="utf-8") as file:
-            self.url = file.read().strip()
-
-    def close(self):
-        self.process.terminate()
-        return self.process.wait(60)
+from drive import TOP, Server, Studio, result
+from page import finish
 
 
 FLOOR, WALL, TABLE = (0.45, 0.95), (0.3, 0.2), (0.2, 0.7)  # places of the picture
 
 
-class Studio(Page):
-    def wait(self, code, seconds=90):
-        if not self.until(f"(() => {{ try {{ return !!({code}); }} catch {{ return false; }} }})()", seconds):
-            raise SystemExit(f"this did not come: {code}")
-
-    def go(self, selector):
-        quoted = json.dumps(selector)
-        self.wait(f"document.querySelector({quoted}) && !document.querySelector({quoted}).disabled")
-        time.sleep(0.2)
-        x, y = self.run(f"(() => {{ const e = document.querySelector({quoted}); e.scrollIntoView({{block: 'nearest'}}); "
-                        "const r = e.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()")
-        self.click(x, y)
-        self.settle()
-
-    def put(self, selector, value):  # pylint: disable=arguments-differ
-        self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.value = {json.dumps(value)}; "
-                 "e.dispatchEvent(new Event('change')); })()")
-        self.settle()
-
-    def picture(self, across, down):
-        """A place of the preview, as parts of its width and height."""
-        return self.run("(() => { const r = document.querySelector('#picture').getBoundingClientRect(); "
-                        f"return [r.x + r.width * {across}, r.y + r.height * {down}]; }})()")
-
-    def trouble(self):
-        wrong = [e["params"] for e in self.events if e["method"] in ("Runtime.exceptionThrown", "Log.entryAdded")]
-        self.events.clear()
-        for found in wrong:
-            print("#", str(found)[:300])
-        return bool(wrong) or self.run("[...document.querySelectorAll('.message.error')].map(e => e.textContent).join()")
-
-
-def saved(server):
-    with open(server.project_file, encoding="utf-8") as file:
-        return json.load(file)
-
-
-def settled(page, server):
-    page.wait("document.querySelector('#saved').textContent === 'All is saved'")
-    return saved(server)
-
-
-def open_studio(page, server):
-    page.call("Page.navigate", url=server.url)
-    page.wait("document.querySelector('#panel-title').textContent === 'Open'")
-
-
 def choose(page, server):
-    open_studio(page, server)
+    page.open_studio(server)
     page.shot("studio-open")
     page.go(".browser button.row")
     page.wait("document.querySelector('.report li')")
-    result(settled(page, server)["import"]["done"] and not page.trouble(), "a model is opened by a click, and imported")
+    result(page.saved(server)["import"]["done"] and not page.trouble(), "a model is opened by a click, and imported")
     page.shot("studio-imported")
     page.go("#next-button")
     page.go("#keep-view")
     page.shot("studio-view")
     page.go("#undo")
-    result(settled(page, server)["cameras"] == [], "a kept view is undone")
+    result(page.saved(server)["cameras"] == [], "a kept view is undone")
     page.go("#next-button")
     page.wait("document.querySelector('#seen summary')")
     for number, place in enumerate((FLOOR, WALL)):
@@ -108,20 +36,20 @@ def choose(page, server):
     page.wait("document.querySelector('#under').textContent")
     result(page.run("document.querySelector('#under').textContent") == "Table", "the name of what is under the pointer")
     page.shot("studio-surfaces")
-    found = settled(page, server)["targets"]
+    found = page.saved(server)["targets"]
     result([t["name"] for t in found] == ["Floor", "Walls"], f"surfaces are taken by clicks {found}")
     page.run("document.querySelector('#picture').focus()")
     page.key("4", 52)
     page.click(*page.picture(*TABLE))
     page.settle()
-    taken = [t["select"] if t["name"] == "Table" else t["name"] for t in settled(page, server)["targets"]]
+    taken = [t["select"] if t["name"] == "Table" else t["name"] for t in page.saved(server)["targets"]]
     page.run("document.querySelector('#picture').focus()")
     page.call("Input.dispatchKeyEvent", type="keyDown", key="z", code="KeyZ", modifiers=2)
     page.settle()
-    result(taken[-1] == "#5" and len(settled(page, server)["targets"]) == 2,
+    result(taken[-1] == "#5" and len(page.saved(server)["targets"]) == 2,
            f"the key 4 takes objects, and Ctrl-Z gives one back {taken}")
     page.put("#target-1", "Wände")
-    result(settled(page, server)["targets"][1]["name"] == "Wände", "a surface is renamed")
+    result(page.saved(server)["targets"][1]["name"] == "Wände", "a surface is renamed")
 
 
 def light_and_render(page, server):
@@ -140,7 +68,7 @@ def light_and_render(page, server):
     page.shot("studio-render")
     page.go("#next-button")
     page.wait("document.querySelector('.renders .good')", 200)
-    project = settled(page, server)
+    project = page.saved(server)
     result(project["renders"][0]["done"] and not page.trouble(), "a render with a lamp and finishes, after an estimate")
     page.go("#next-button")
     page.wait("document.querySelector('retex-room') && document.querySelector('retex-room').textures.length")
@@ -154,7 +82,7 @@ def play(page, server):
     page.wait("document.querySelector('retex-room').getState().textures.Floor")
     page.put("#picture-width", "40")
     page.wait("document.querySelector('retex-room').getState().textures.Floor.width")
-    look = settled(page, server)["look"]
+    look = page.saved(server)["look"]
     result(look.startswith("Floor=files/") and "damask" in look and "Floor.width=0.4m" in look,
            f"a picture lies on the floor, 40 cm wide: {look}")
     page.shot("studio-play")
@@ -173,7 +101,7 @@ def play(page, server):
 
 def others(page, server):
     """Another window, and a job that fails."""
-    changed = {**saved(server), "presets": [{"name": "Empty", "look": ""}]}
+    changed = {**server.project(), "presets": [{"name": "Empty", "look": ""}]}
     with open(server.project_file, "w", encoding="utf-8") as file:
         json.dump(changed, file)
     page.wait("document.querySelector('#messages').textContent.includes('Another window')")
@@ -184,8 +112,8 @@ def others(page, server):
     page.wait("document.querySelector('#conflict').open")
     page.shot("studio-conflict")
     page.go("#take-over")
-    result(len(settled(page, server)["presets"]) == 2, "a change by another window is told, and can be taken over")
-    os.rename(f"{server.work}/{saved(server)['renders'][0]['set']}", f"{server.work}/away.exr")
+    result(len(page.saved(server)["presets"]) == 2, "a change by another window is told, and can be taken over")
+    os.rename(f"{server.work}/{server.project()['renders'][0]['set']}", f"{server.work}/away.exr")
     page.go("#make-pack")
     page.wait("document.querySelector('.message.error')")
     told = page.run("document.querySelector('.message.error').textContent")
@@ -206,8 +134,8 @@ def main():
         for name in os.listdir(work):
             if name != "room.obj":
                 os.remove(f"{work}/{name}")
-        server = Server(work, f"{TOP}/scenes/textures")
-        page = Studio("")
+        server = Server(work, "--textures", f"{TOP}/scenes/textures")
+        page = Studio()
         try:
             page.size(1280, 800)
             choose(page, server)

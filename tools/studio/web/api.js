@@ -44,11 +44,11 @@ export async function getProject() {
   return { project: await answer.json(), etag: answer.headers.get("ETag") };
 }
 
-/* The new ETag. etag: of what this window last saw; "" for the first project. */
-export async function putProject(project, etag) {
+/* The new ETag. etag: of what this window last saw; "" for the first project. keepalive: the window may close meanwhile. */
+export async function putProject(project, etag, keepalive = false) {
   const match = etag ? { "If-Match": etag } : { "If-None-Match": "*" };
   const answer = await ask("api/project", {
-    method: "PUT", headers: { "Content-Type": "application/json", ...match }, body: JSON.stringify(project, null, 1),
+    method: "PUT", headers: { "Content-Type": "application/json", ...match }, body: JSON.stringify(project, null, 1), keepalive,
   });
   return answer.headers.get("ETag") || (await answer.json()).etag;
 }

@@ -5,6 +5,7 @@ import { amended, changed, emptyProject, kindOf, newHistory, readProject, redone
 import { errorReport, plainly } from "./words.js";
 
 const SAVE_AFTER = 400; // ms
+const LAST_MOST = 30000; // letters; browsers send at most 64 KiB after a window has closed
 
 const outputOf = (args) => args[args.indexOf("-o") + 1];
 const isOver = (job) => ["done", "failed", "stopped"].includes(job.state);
@@ -131,13 +132,14 @@ export class App extends EventTarget {
     }
     this.saving = true;
     try {
-      this.etag = await api.putProject(this.project, this.etag);
-      this.saved = "saved";
+      this.sent = this.project;
+      this.etag = await api.putProject(this.sent, this.etag, this.isSmall);
+      if (this.sent === this.project) this.saved = "saved";
     } catch (error) {
       this.saved = "unsaved";
       if (error.status === 412) this.meetConflict();
       else if (error.status === 0) this.meetLoss(0);
-      else this.say(`The project could not be saved: ${error.message}`, "error", { label: "Try again", run: () => this.saveNow() });
+      else this.say(`The project could not be saved: ${plainly(error.message)}`, "error", { label: "Try again", run: () => this.saveNow() });
     }
     this.saving = false;
     this.tell();
@@ -145,6 +147,22 @@ export class App extends EventTarget {
       this.again = false;
       await this.saveNow();
     }
+  }
+
+  get isSmall() {
+    return JSON.stringify(this.project).length < LAST_MOST;
+  }
+
+  /* Whether a window that closes loses nothing: what it sends last is small, and waits for no other answer. */
+  get canLeave() {
+    if (!this.model || this.ended || this.saved === "saved") return true;
+    return this.saved === "saving" && this.isSmall && (!this.saving || this.sent === this.project);
+  }
+
+  /* The window closes. */
+  saveLast() {
+    clearTimeout(this.timer);
+    if (this.saved !== "saved" && !this.saving && this.canLeave) api.putProject(this.project, this.etag, true).catch(() => 0);
   }
 
   /* Another window, or program, has changed the project. */

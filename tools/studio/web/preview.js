@@ -4,6 +4,7 @@ import * as cam from "./camera.js";
 import { liveArgs, sceneOf } from "./commands.js";
 import { displayed, displayTable } from "./picture.js";
 import { gridLine, isEdge, maskOf, readCoordinates, readSurfaces, surfaceAt } from "./planes.js";
+import { plainly } from "./words.js";
 
 const WIDEST = 960, MOVING_WIDEST = 400, SAMPLES = 64, MOVING_SAMPLES = 1, SETTLE_AFTER = 350; // ms
 const SMOOTHED = [4, 16, SAMPLES]; // of these samples the grain is removed
@@ -100,7 +101,7 @@ export class Preview extends EventTarget {
         this.key = "";
         this.note("");
         if (error.status === 0) return void this.app.meetLoss(0);
-        this.app.say(`The preview has stopped: ${error.message}`, "error", { label: "Start it again", run: () => this.start() });
+        this.app.say(`The preview has stopped. ${plainly(error.message)}`, "error", { label: "Start it again", run: () => this.start() });
         return;
       }
     }

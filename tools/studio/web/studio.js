@@ -234,8 +234,9 @@ stage.addEventListener("drop", (event) => {
   }
 }, true);
 
+addEventListener("pagehide", () => app.saveLast());
 addEventListener("beforeunload", (event) => {
-  if (app.saved !== "saved" && app.model && !app.ended) event.preventDefault();
+  if (!app.canLeave) event.preventDefault();
 });
 document.addEventListener("visibilitychange", () => {
   if (!preview.live || isPlaying() || app.paused) return;

@@ -26,6 +26,7 @@ const IMPORT = [
 ];
 
 const ERRORS = [
+  [/^(\d+x\d+) pixels are more than the \d+ of --max-pixels/, "$1 pixels are more than retex studio may render. Choose a smaller size, or start it with --max-pixels."],
   [/more than the (\d+ .B) of --max-memory/, "This needs more than the $1 of memory that it may have. Choose a smaller size in the step Render or fewer lamps and finishes in the step Light, or start retex studio with more: --max-memory."],
   [/too little memory|max-memory|out of memory/i, "There is too little memory for this. Close other programs, or choose a smaller size in the step Render."],
   [/ended by a signal: Killed/, "The system has ended this, mostly since memory ran out. Close other programs or choose a smaller size in the step Render, then go on."],
