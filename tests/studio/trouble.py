@@ -89,7 +89,8 @@ def full_disk(page, work):
     limit(64)
     take(page, FLOOR, 0)
     told = page.told("could not be saved")
-    result("disk" in told and "Make room" in told and page.run("document.querySelector('#saved').textContent") == "Not saved",
+    shown = page.until("document.querySelector('#saved').textContent === 'Not saved'", 5)
+    result("disk" in told and "Make room" in told and shown,
            f"a full disk is told: {told}")
     page.shot("trouble-full")
     limit(resource.RLIM_INFINITY)
@@ -210,6 +211,55 @@ def killed_tool(page, work):
     server.close()
 
 
+def killed_server(page, work):
+    """The server sleeps, and is killed: changes are kept in the page, and saved, or taken away as a file."""
+    server = begin(page, work)
+    take(page, FLOOR, 0)
+    page.saved(server)
+    server.process.send_signal(signal.SIGSTOP)
+    take(page, WALL, 1)
+    time.sleep(1)
+    server.process.send_signal(signal.SIGCONT)
+    result(len(page.saved(server)["targets"]) == 2, "a change while the server sleeps is saved when it wakes")
+    began = time.time()
+    server.process.kill()
+    told = page.told("does not answer")
+    result("retex studio" in told and time.time() - began < 10, f"a server that is killed is told in {time.time() - began:.1f} s: {told}")
+    take(page, BALL, 2)
+    page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=f"{work}/kept")
+    page.go("#keep-file")
+    page.shot("trouble-server")
+    for _ in range(50):
+        if os.path.exists(f"{work}/kept/{os.path.basename(server.project_file)}"):
+            break
+        time.sleep(0.1)
+    result(page.leave(), "the browser asks before a window with changes closes")
+    server.process.wait()
+    Server.running.remove(server)
+    os.replace(f"{work}/kept/{os.path.basename(server.project_file)}", server.project_file)
+    server = Server(work, model="room.pov")
+    page.open_studio(server, "View")
+    page.go("#step-surfaces")
+    page.wait("document.querySelector('#target-2')")
+    result(True, "nothing is lost: the file has what was changed last")
+    server.close()
+
+
+def quit_studio(page, work):
+    """Ending it from the page."""
+    server = begin(page, work)
+    take(page, FLOOR, 0)
+    page.go("#quit-button")
+    page.shot("trouble-quit")
+    page.go("#quit-end")
+    ended = server.process.wait(30)
+    result(ended == 0 and [x["name"] for x in server.project()["targets"]] == ["Floor"], "Quit saves, and ends the server")
+    told = page.run("document.body.innerText")
+    result("You can close this window" in told, "and the page says so")
+    result(not page.leave(), "without a question when it closes")
+    Server.running.remove(server)
+
+
 def changed_model(page, work):
     """The model's file is saved anew by another program, and taken away."""
     server = begin(page, work)
@@ -248,8 +298,8 @@ def many_surfaces(page, work):
 
 
 def main():
-    each([wrong_files, wrong_picture, full_disk, full_render, memory_limit, closed_tab, second_window, killed_tool, changed_model,
-          many_surfaces])
+    each([wrong_files, wrong_picture, full_disk, full_render, memory_limit, closed_tab, second_window, killed_tool, killed_server,
+          quit_studio, changed_model, many_surfaces])
     finish()
 
 
