@@ -129,6 +129,21 @@ static void show(const Live *l, const float *rgb, int is_denoised)
 
 /* ---- requests ---- */
 
+static int has_input(int milliseconds)
+{
+    struct pollfd input = {STDIN_FILENO, POLLIN, 0};
+    return poll(&input, 1, milliseconds) > 0;
+}
+
+/* A StopAsked. */
+static int is_called(void *context)
+{
+    Live *l = context;
+    if (!atomic_load(&l->is_called) && has_input(0))
+        atomic_store(&l->is_called, 1);
+    return atomic_load(&l->is_called);
+}
+
 /* WIDTH HEIGHT CAMERA: turn to that view. */
 static int look(Live *l, char **words, RetexError *err)
 {
@@ -167,6 +182,18 @@ static int request_stop(Live *l, char **words, RetexError *err)
     (void)words, (void)err;
     l->is_viewing = 0;
     return RETEX_OK;
+}
+
+/* Of the view as it is, which goes on. A line ends it, without an answer. */
+static int request_denoise(Live *l, char **words, RetexError *err)
+{
+    const StopAsked stop = {is_called, l};
+    (void)words;
+    atomic_store(&l->is_called, memchr(l->line, '\n', l->used) != NULL);
+    const int code = live_denoise(l->render, &stop, l->rgb, err);
+    if (!code)
+        show(l, l->rgb, 1);
+    return code == RETEX_ESTOPPED ? RETEX_OK : code;
 }
 
 static void print_surfaces(const Surfaces *all)
@@ -256,6 +283,7 @@ static const struct Request {
     const char *usage;
     int (*answer)(Live *live, char **words, RetexError *err);
 } requests[] = {{"view", 4, "view WIDTH HEIGHT CAMERA SPP", request_view},
+                {"denoise", 0, "denoise", request_denoise},
                 {"surfaces", 3, "surfaces WIDTH HEIGHT CAMERA", request_surfaces},
                 {"uv", 3, "uv WIDTH HEIGHT CAMERA", request_uv},
                 {"stop", 0, "stop", request_stop}};
@@ -276,21 +304,6 @@ static int answer_line(Live *l, char *line, RetexError *err)
 }
 
 /* ---- standard input ---- */
-
-static int has_input(int milliseconds)
-{
-    struct pollfd input = {STDIN_FILENO, POLLIN, 0};
-    return poll(&input, 1, milliseconds) > 0;
-}
-
-/* A StopAsked. */
-static int is_called(void *context)
-{
-    Live *l = context;
-    if (!atomic_load(&l->is_called) && has_input(0))
-        atomic_store(&l->is_called, 1);
-    return atomic_load(&l->is_called);
-}
 
 static void read_some(Live *l)
 {

@@ -2,10 +2,7 @@
 #include <stdlib.h>
 #include "render/denoise_guides.h"
 
-/* Sample points of a pixel: few, or many if the few do not all see the same surface. Both are powers of 2, because
- * such numbers of samples are well distributed. */
-#define SAMPLES_FEW 16
-#define SAMPLES_MANY 64
+#define MORE_SAMPLES 4          /* times as many sample points where the first do not all see the same surface */
 #define ONE_NORMAL 0.999        /* minimum length of the mean normal for normals that count as equal */
 #define ONE_ALBEDO 1e-4         /* maximum variance of luminance for albedos that count as equal */
 #define SPECULAR_BOUNCES_MAX 16 /* specular reflections and refractions along a ray, at most */
@@ -216,14 +213,14 @@ int denoise_guides_observe(void *pixel, const Ray *ray, const Hit *hit, const Sh
     if (denoise_guides_missing(p) == 0)
         return 0;
     add_sample(p, *ray, *hit, shading);
-    if (p->samples == SAMPLES_FEW)
+    if (p->samples == p->guides->samples)
         p->varied = !is_uniform(p);
     return denoise_guides_missing(p);
 }
 
 int denoise_guides_missing(const PixelGuides *p)
 {
-    return (p->varied ? SAMPLES_MANY : SAMPLES_FEW) - p->samples;
+    return (p->varied ? MORE_SAMPLES : 1) * p->guides->samples - p->samples;
 }
 
 void denoise_guides_trace(PixelGuides *p, const Ray *rays, int count)
@@ -280,10 +277,11 @@ PixelGuides *pixel_guides_at(PixelGuides *pixels, int k)
     return pixels + k;
 }
 
-int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)
+int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, int samples,
+                          RetexError *err)
 {
     int code = RETEX_OK;
-    *g = (DenoiseGuides){.window = *window, .split = split};
+    *g = (DenoiseGuides){.window = *window, .split = split, .samples = samples};
     const RetexFeatureInfo *info;
     for (int k = 0; !code && (info = retex_feature_info(k)); k++)
         code = film_add_image(film, info->name, info->letters, info->type, &g->guides[k], err);

@@ -11,8 +11,13 @@
 #include "path/shading.h"
 #include "render/first_hit.h"
 
+/* Sample points of a pixel, and as many more as it needs where they do not all see the same. Powers of 2, because such
+ * numbers of samples are well distributed. */
+enum { GUIDE_SAMPLES = 16, GUIDE_SAMPLES_QUICK = 4 };
+
 typedef struct DenoiseGuides {
     FirstHitWindow window;
+    int samples;
     int split; /* 1: the set is for retexturing, so that the albedo of targets is unknown */
     int guides[RETEX_FEATURE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
 } DenoiseGuides;
@@ -20,7 +25,9 @@ typedef struct DenoiseGuides {
 /* One thread's sums over the sample points of a pixel. */
 typedef struct PixelGuides PixelGuides;
 
-int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
+/* samples: one of GUIDE_SAMPLES…. */
+int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, int samples,
+                          RetexError *err);
 
 /* An array of so many. */
 int pixel_guides_create(PixelGuides **pixels, int count, const DenoiseGuides *guides, RetexError *err);

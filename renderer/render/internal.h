@@ -1,4 +1,4 @@
-/* All of one render; private to setup.c, tiles.c, render.c and variants.c. */
+/* All of one render; private to setup.c, tiles.c, render.c, live.c and variants.c. */
 #ifndef RENDERER_RENDER_INTERNAL_H
 #define RENDERER_RENDER_INTERNAL_H
 
@@ -30,6 +30,7 @@ typedef struct Render {
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     DenoiseGuides guides;
+    int quick_guides; /* 1: from fewer sample points */
     PixelGuides **pixel_guides; /* by thread, of the pixels that it traces side by side; or NULL: no guides */
     char *resumed;              /* by band: finished by another render */
     int wanted;                 /* tiles, of all that are to be rendered */
@@ -65,6 +66,9 @@ int render_open_film(Render *render, int control, int halves, RetexError *err);
 void render_drop_files(RenderParams *params); /* of a render beside the one that files are for */
 void render_choose_matte(Render *render); /* after the guide is open: whether packets sample matte surfaces together */
 FirstHitWindow render_window(const Render *render);
+/* Another pass over the same picture, without files and progress: with the ray structure and the lights of `render`,
+ * which it does not own: close no more than its films. */
+Render render_pass(const Render *render);
 const FilmLayout *render_layout(const RenderParams *params);
 int render_is_stopped(const Render *render);
 /* Whether a band is to be rendered: of this shard, and not done by another render. */
@@ -83,5 +87,12 @@ int render_tile_pixels(const Render *render, int tile, int *x0, int *y0, int *ac
  * alone. 0: it was told to stop. */
 int render_tile_light(const Render *render, PathWorker *worker, int tile, int from, int to, double (*sums)[3],
                       const StopAsked *stop);
+/* Give the film of a pass with spp 2 a tile's pixels: as samples the means of two halves of their light; and guides. */
+void render_tile_halves(Render *pass, int thread, int tile, double (*const halves[2])[3], const StopAsked *stop);
+
+/* ---- render.c ---- */
+
+/* A set with a beauty, and what is known of it as a whole. */
+int render_start_set(RetexSet **set, const Render *render, RetexError *err);
 
 #endif

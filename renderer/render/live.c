@@ -2,6 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/denoise.h>
+#include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include "light/lights.h"
 #include "path/projection.h"
@@ -272,4 +274,88 @@ void live_picture(const LiveRender *l, float *rgb)
                 to[c] = tile->samples ? (float)(tile->sums[k][c] / tile->samples) : 0;
         }
     }
+}
+
+/* ---- without noise ---- */
+
+/* A pass whose film gets each pixel as two samples, the means of the halves: their difference tells the noise. */
+typedef struct Denoising {
+    LiveRender *live;
+    Render pass;
+    const StopAsked *stop;
+    RetexBudget *budget; /* is stopped where `stop` is asked */
+} Denoising;
+
+static void give_halves(void *context, int index, int thread)
+{
+    Denoising *d = context;
+    const LiveTile *tile = &d->live->tiles[index];
+    double first[TILE_PIXELS][3], rest[TILE_PIXELS][3];
+    for (int k = 0; k < TILE_PIXELS; k++)
+        for (int c = 0; c < 3; c++) {
+            first[k][c] = tile->half[k][c] / tile->first;
+            rest[k][c] = (tile->sums[k][c] - tile->half[k][c]) / (tile->samples - tile->first);
+        }
+    render_tile_halves(&d->pass, thread, index, (double(*const[2])[3]){first, rest}, d->stop);
+}
+
+/* A set of the picture, with what denoising reads. */
+static int make_set(RetexSet **set, Denoising *d, RetexError *err)
+{
+    Render *pass = &d->pass;
+    int code = render_open_film(pass, 0, 0, err);
+    if (code)
+        return code;
+    retex_parallel(pass->params.nthreads, d->live->ntiles, give_halves, d);
+    if (d->stop->is_asked(d->stop->context))
+        return retex_fail(err, RETEX_ESTOPPED, "stopped");
+    code = render_start_set(set, pass, err);
+    if (!code)
+        code = film_finish(pass->film, *set, err);
+    return code ? code : denoise_guides_finish(&pass->guides, pass->film, *set, err);
+}
+
+static void watch(void *context, double done)
+{
+    const Denoising *d = context;
+    (void)done;
+    if (d->stop->is_asked(d->stop->context))
+        retex_budget_stop(d->budget);
+}
+
+static int denoise_set(RetexSet *set, Denoising *d, RetexError *err)
+{
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    int code = retex_budget_create(&d->budget, err);
+    if (code)
+        return code;
+    params.quality = "preview", params.budget = d->budget;
+    params.progress = watch, params.progress_context = d;
+    code = retex_denoise(set, &params, NULL, d->pass.params.nthreads, err);
+    retex_budget_close(&d->budget);
+    return code;
+}
+
+int live_denoise(LiveRender *l, const StopAsked *stop, float *rgb, RetexError *err)
+{
+    Denoising d = {l, render_pass(&l->render), stop, NULL};
+    RetexBudget *budget = l->render.params.budget;
+    RetexSet *set = NULL;
+    if (live_samples(l) < 2)
+        return retex_fail(err, RETEX_EINVAL, "there is no picture of two samples that could be denoised");
+    d.pass.params.spp = 2, d.pass.params.denoise_data = 1, d.pass.quick_guides = 1;
+    const uint64_t bytes = (uint64_t)render_bytes(l->scene, &d.pass.params, l->render.w, l->render.h);
+    int code = retex_budget_charge(budget, bytes, "denoising", err);
+    if (code)
+        return code;
+    code = make_set(&set, &d, err);
+    if (!code)
+        code = denoise_set(set, &d, err);
+    if (!code)
+        memcpy(rgb, retex_set_part(set, 0)->image.pixels,
+               (size_t)l->render.w * (size_t)l->render.h * 3 * sizeof *rgb);
+    render_close_films(&d.pass);
+    retex_set_close(&set);
+    retex_budget_release(budget, bytes);
+    return code;
 }

@@ -30,5 +30,7 @@ int live_samples(const LiveRender *live);
 int live_samples_wanted(const LiveRender *live);
 /* The picture so far: RGB. */
 void live_picture(const LiveRender *live, float *rgb);
+/* The same, denoised quickly. RETEX_EINVAL where there are pixels of less than two samples; RETEX_ESTOPPED. */
+int live_denoise(LiveRender *live, const StopAsked *stop, float *rgb, RetexError *err);
 
 #endif

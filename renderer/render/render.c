@@ -12,7 +12,7 @@
 #include "render/originals.h"
 #include "render/uv_scale.h"
 
-static int start_set(RetexSet **set, const Render *r, RetexError *err)
+int render_start_set(RetexSet **set, const Render *r, RetexError *err)
 {
     int code = retex_set_create(set, r->w, r->h, err);
     if (code)
@@ -35,26 +35,13 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
 /* The part `irradiance`: a separate pass with its own samples, at the first hits of the pixel centres. */
 static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 {
-    Render pass = {.scene = r->scene,
-                   .params = r->params,
-                   .width = r->width,
-                   .height = r->height,
-                   .x0 = r->x0,
-                   .y0 = r->y0,
-                   .w = r->w,
-                   .h = r->h,
-                   .tiles_x = r->tiles_x,
-                   .tiles_y = r->tiles_y,
-                   .context = r->context};
+    Render pass = render_pass(r);
     RetexSet *found = NULL;
     RenderStats ignored = {0};
     int part;
     pass.context.white = 1, pass.context.split = 0, pass.context.halves = 1;
-    pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
-    pass.params.denoise_data = 0, pass.params.noise = 0;
-    render_drop_files(&pass.params);
-    pass.lights = r->lights;
-    int code = start_set(&found, &pass, err);
+    pass.params.seed = hash_pair(r->params.seed, 2), pass.params.denoise_data = 0;
+    int code = render_start_set(&found, &pass, err);
     if (!code)
         code = render_open_film(&pass, 0, 0, err);
     if (!code)
@@ -145,7 +132,7 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
     if (!code)
         code = render_open_guide(&r, err);
     if (!code)
-        code = start_set(set, &r, err);
+        code = render_start_set(set, &r, err);
     if (!code)
         code = render_into(*set, &r, stats, started, err);
     render_close(&r);

@@ -237,6 +237,26 @@ FirstHitWindow render_window(const Render *r)
                             r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
 }
 
+Render render_pass(const Render *r)
+{
+    Render pass = {.scene = r->scene,
+                   .params = r->params,
+                   .width = r->width,
+                   .height = r->height,
+                   .x0 = r->x0,
+                   .y0 = r->y0,
+                   .w = r->w,
+                   .h = r->h,
+                   .tiles_x = r->tiles_x,
+                   .tiles_y = r->tiles_y,
+                   .accel = r->accel,
+                   .lights = r->lights,
+                   .context = r->context};
+    pass.params.progress = NULL, pass.params.noise = 0;
+    render_drop_files(&pass.params);
+    return pass;
+}
+
 int render_is_stopped(const Render *r)
 {
     return retex_budget_is_stopped(r->params.budget);
@@ -280,7 +300,8 @@ static int open_guides(Render *r, int threads, RetexError *err)
     FirstHitWindow window = render_window(r);
     if (!(r->pixel_guides = calloc((size_t)threads, sizeof *r->pixel_guides)))
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+    int code = denoise_guides_create(&r->guides, r->film, &window, r->context.split,
+                                     r->quick_guides ? GUIDE_SAMPLES_QUICK : GUIDE_SAMPLES, err);
     for (int k = 0; k < threads && !code; k++)
         code = pixel_guides_create(&r->pixel_guides[k], PATHS_MAX, &r->guides, err);
     return code;

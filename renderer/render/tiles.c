@@ -197,6 +197,24 @@ int render_tile_light(const Render *r, PathWorker *worker, int tile, int from, i
     return 1;
 }
 
+void render_tile_halves(Render *r, int thread, int tile, double (*const halves[2])[3], const StopAsked *stop)
+{
+    int x0, y0, across;
+    const int count = render_tile_pixels(r, tile, &x0, &y0, &across);
+    FilmPixel *pixel = r->pixels[thread];
+    for (int k = 0; k < count; k++) {
+        const PixelRun run = {x0, y0, across, k, 1};
+        if (k % across == 0 && (render_is_stopped(r) || stop->is_asked(stop->context)))
+            return;
+        for (int half = 0; half < 2; half++) {
+            film_add_light(pixel, halves[half][k]);
+            film_path_end(pixel, NULL);
+        }
+        end_pixel(r, thread, &run, 0, 0);
+    }
+    film_tile_end(pixel, tile);
+}
+
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;

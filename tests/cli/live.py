@@ -7,7 +7,7 @@ import sys
 import numpy
 import OpenImageIO as oiio
 
-from live_client import Live, clock
+from live_client import Live, clock, rgba
 
 W, H = 70, 50  # tiles at the edges are smaller
 CAMERA = '1,2,-4:0,.5,0:50'
@@ -44,6 +44,41 @@ def same_as_render():
         print([n for n, _ in pictures], (got[..., :3] == want.astype(numpy.float16)).all(),
               (pictures[0][1][..., :3] == first.astype(numpy.float16)).all(), (got[..., 3] == 1).all())
     print(live.end())
+
+
+def mean_square(a, b):
+    return numpy.square(a[..., :3].astype(float) - b[..., :3]).mean()
+
+
+def denoised():
+    """Near to what retex-render denoises, also before the view is done, which then goes on as ever."""
+    scene = os.environ['SCENES'] + '/cornell-box/cornell-box.pov'
+    live = Live(scene)
+    print(live.denoise()[0])
+    live.view(W, H, '-', 1)
+    print(live.denoise()[0])
+    plain = live.view(W, H, '-', 32)
+    live.send(f'view {W} {H} - 32')
+    again, got = [], []
+    while len(again) < len(plain):
+        head, data = live.answer()
+        again.append((head['picture'], rgba(head, data)))
+        if head['picture'] in (2, 8, 32):
+            got.append(live.denoise())
+            while 'denoised' not in got[-1][0]: # the view was faster
+                again.append((got[-1][0]['picture'], rgba(*got[-1])))
+                got[-1] = live.answer()
+    print([n for n, _ in again], all((a == b).all() for (_, a), (_, b) in zip(plain, again)))
+    print((rgba(*live.denoise()) == rgba(*got[-1])).all(), (rgba(*got[-1])[..., 3] == 1).all())
+    converged = live.view(W, H, '-', 1024)[-1][1]
+    noisy = [mean_square(dict(plain)[head['picture']], converged) for head, _ in got]
+    clean = [mean_square(rgba(*one), converged) for one in got]
+    print([head['picture'] for head, _ in got], all(a > 1.8 * b for a, b in zip(noisy, clean)) or (noisy, clean))
+    want = oiio.ImageBuf(render('--plain', '--spp', '32', '--denoise=preview', scene)).get_pixels(oiio.FLOAT)
+    print(clean[-1] < 1.5 * mean_square(want, converged) or (clean[-1], mean_square(want, converged)))
+    live.view(800, 600, '-', 2)
+    live.send('denoise', 'stop')
+    print(live.is_quiet(.5), live.end())
 
 
 def surfaces():

@@ -6,6 +6,14 @@ $ /usr/bin/python3 -B "$TESTS/live.py" same_as_render
 > [1, 2, 4, 8, 10, 20] True True True
 > [1, 2, 4, 8, 10, 20] True True True
 > (0, b'')
+$ /usr/bin/python3 -B "$TESTS/live.py" denoised
+> {'error': 'there is no picture of two samples that could be denoised', 'bytes': 0}
+> {'error': 'there is no picture of two samples that could be denoised', 'bytes': 0}
+> [1, 2, 4, 8, 16, 32] True
+> True True
+> [2, 8, 32] True
+> True
+> True (0, b'')
 $ /usr/bin/python3 -B "$TESTS/live.py" surfaces
 > material #5  True True
 > material #1 Floor True True

@@ -50,6 +50,11 @@ class Live:
             if 'picture' not in head:
                 return head, data
 
+    def denoise(self):
+        """Ask for a denoised picture; the answer, but of a view that runs the next picture of that may come first."""
+        self.send('denoise')
+        return self.answer()
+
     def view(self, width, height, camera, spp):
         """All pictures of a view, each as its number of samples and RGBA."""
         self.send(f'view {width} {height} {camera} {spp}')
