@@ -31,6 +31,7 @@ typedef struct Live {
     atomic_int is_called; /* there is something to read */
     int is_viewing;       /* the view has not got all of its samples */
     double began;         /* by the clock */
+    SceneSurfaces known;  /* once surfaces were asked for */
     float *rgb;           /* of a picture */
     uint16_t *halves;
 } Live;
@@ -217,10 +218,12 @@ static int request_surfaces(Live *l, char **words, RetexError *err)
     RetexBudget *budget = l->arguments->cli->budget;
     Surfaces all;
     int code = look(l, words, err);
-    if (code)
-        return code;
+    if (!code && !l->known.scene)
+        code = scene_surfaces_open(&l->known, l->scene, err);
     const FirstHitWindow window = live_window(l->render);
-    if ((code = surfaces_find(&all, &window, budget, err)))
+    if (!code)
+        code = surfaces_find(&all, &l->known, &window, budget, err);
+    if (code)
         return code;
     print_surfaces(&all);
     printf(",\"width\":%d,\"height\":%d", window.w, window.h);
@@ -393,6 +396,7 @@ int live(Arguments *a, Scene *scene, RetexError *err)
         code = serve(&l, err);
     }
     live_close(&l.render);
+    scene_surfaces_close(&l.known);
     free(l.rgb);
     free(l.halves);
     return code;

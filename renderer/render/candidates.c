@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/digest.h"
 #include "render/candidates.h"
 #include "render/internal.h"
 #include "render/label.h"
@@ -34,17 +35,9 @@ typedef struct Collection {
     float most; /* share of the leaf that is seen most at this pixel */
 } Collection;
 
-static size_t hash_text(const char *text)
-{
-    size_t hash = 1469598103u;
-    for (; *text; text++)
-        hash = (hash ^ (unsigned char)*text) * 1099511u;
-    return hash;
-}
-
 static int *find_slot(const Collection *c, const char *text)
 {
-    size_t i = hash_text(text) & (size_t)(c->nslots - 1);
+    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(c->nslots - 1);
     while (c->slots[i] && strcmp(c->all->list[c->slots[i] - 1].text, text) != 0)
         i = (i + 1) & (size_t)(c->nslots - 1);
     return &c->slots[i];
@@ -215,19 +208,22 @@ static double share_on(Collection *c, const FaceLevel *level, Levels *levels, in
 static void add_level(Collection *c, Levels *levels, int flat, int count)
 {
     const Candidate one = c->all->list[flat];
-    FaceSelection of = {.level = 1, .text = ""};
+    const Scene *scene = c->window->scene;
+    const struct KnownFaces *known;
     FaceLevel level;
     char text[SELECTOR_MAX];
+    int number, face;
     levels->is_done[flat] = 1;
-    if (sscanf(one.text, "#%d/flat:%d", &of.number, &of.face) != 2 ||
-        faces_level(&level, c->window->scene, &of, NULL))
+    if (sscanf(one.text, "#%d/flat:%d", &number, &face) != 2 ||
+        !(known = scene_faces_of(&c->faces, &scene->primitives[number - 1])) ||
+        faces_level_of(&level, scene, &known->owner, face - 1))
         return;
     const double share = share_on(c, &level, levels, count);
     for (int k = 0; k < count; k++)
         levels->is_done[k] |= levels->on[k] > 0.5 * c->all->list[k].share;
     if (share < 1.02 * one.share)
         return;
-    snprintf(text, sizeof text, "#%d/level:%d", of.number, of.face);
+    snprintf(text, sizeof text, "#%d/level:%d", number, face);
     const int k = add(c, text, "level", one.place, 0);
     if (k >= 0)
         c->all->list[k].share = share;

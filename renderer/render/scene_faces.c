@@ -4,7 +4,7 @@
 
 int scene_faces_open(SceneFaces *faces, const Scene *scene)
 {
-    *faces = (SceneFaces){scene, calloc((size_t)scene->nprimitives + 1, sizeof *faces->of)};
+    *faces = (SceneFaces){scene, faces_scene_size(scene), calloc((size_t)scene->nprimitives + 1, sizeof *faces->of)};
     return faces->of != NULL;
 }
 
@@ -21,7 +21,7 @@ const struct KnownFaces *scene_faces_of(SceneFaces *faces, const Primitive *prim
     struct KnownFaces *known = &faces->of[primitive - faces->scene->primitives];
     if (known->is_known)
         return known;
-    known->owner = faces_owner(faces->scene, primitive);
+    known->owner = faces_owner(faces->scene, primitive, faces->size);
     if (faces_count(primitive) && !(known->flat = faces_flat(primitive)))
         return NULL;
     known->is_known = 1;

@@ -6,6 +6,7 @@
 
 typedef struct SceneFaces {
     const Scene *scene;
+    double size; /* as of faces_scene_size */
     struct KnownFaces {
         int is_known;
         int *flat; /* as of faces_flat; NULL where there are no faces */

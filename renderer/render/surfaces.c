@@ -3,14 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
+#include "base/digest.h"
 #include "path/surface_color.h"
-#include "render/scene_faces.h"
 #include "render/surfaces.h"
 
-enum {
-    LEVELS_MAX = 64,
-    LEVEL_LEAST = 1000 /* a level is looked for where flat faces have at least this part of the picture */
-};
+/* A level has at least this part of the picture. LEVELS_TRIED bounds the work where curved meshes have none. */
+enum { LEVEL_LEAST = 1000, LEVELS_TRIED = 1000 };
 
 const SelectorScope surface_scopes[SURFACE_SCOPES] = {SCOPE_MATERIAL, SCOPE_OBJECT, SCOPE_FLAT, SCOPE_LEVEL};
 enum { MATERIAL, OBJECT, FLAT, LEVEL }; /* in their order */
@@ -19,14 +17,14 @@ enum { MATERIAL, OBJECT, FLAT, LEVEL }; /* in their order */
 typedef struct SeenFace {
     const Primitive *primitive;
     int face, pixels;
-    int flat, level; /* surfaces, from 1; 0: none */
+    int flat, level; /* surfaces, from 1; 0: none; -1: none that is worth it */
 } SeenFace;
+enum { LEVEL_NEW = -2 }; /* of the level that is being marked */
 
 typedef struct Finding {
     const FirstHitWindow *window;
     Surfaces *all;
-    Materials materials;
-    SceneFaces scene_faces;
+    SceneSurfaces *known;
     ShownSurface *shown; /* by pixel; no primitive: nothing is hit */
     int *slots, nslots;  /* surfaces by their text: index + 1, or 0 */
     int capacity;
@@ -37,18 +35,9 @@ typedef struct Finding {
 
 /* ---- the list ---- */
 
-static size_t hash_bytes(const void *bytes, size_t count)
-{
-    const unsigned char *at = bytes;
-    size_t hash = 1469598103u;
-    for (size_t k = 0; k < count; k++)
-        hash = (hash ^ at[k]) * 1099511628211u;
-    return hash ^ hash >> 29;
-}
-
 static int *find_slot(const Finding *f, const char *text)
 {
-    size_t i = hash_bytes(text, strlen(text)) & (size_t)(f->nslots - 1);
+    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(f->nslots - 1);
     while (f->slots[i] && strcmp(f->all->list[f->slots[i] - 1].text, text) != 0)
         i = (i + 1) & (size_t)(f->nslots - 1);
     return &f->slots[i];
@@ -109,7 +98,7 @@ static int find_face(Finding *f, const ShownSurface *shown)
         const Primitive *primitive;
         size_t face;
     } key = {shown->primitive, (size_t)shown->face};
-    size_t i = hash_bytes(&key, sizeof key) & (size_t)(f->nface_slots - 1);
+    size_t i = digest_bytes(DIGEST_BEGIN, &key, sizeof key) & (size_t)(f->nface_slots - 1);
     for (; f->face_slots[i]; i = (i + 1) & (size_t)(f->nface_slots - 1)) {
         const SeenFace *face = &f->faces[f->face_slots[i] - 1];
         if (face->primitive == shown->primitive && face->face == shown->face)
@@ -127,14 +116,14 @@ static const char *name_of_object(const Finding *f, const ShownSurface *shown)
 {
     const char *name = shown->part.idents ? shown->part.idents->name : NULL;
     if (!name && shown->part.texture)
-        name = materials_name(&f->materials, shown->part.texture);
+        name = materials_name(&f->known->materials, shown->part.texture);
     return name ? scene_name_of(f->window->scene, name) : NULL;
 }
 
 static int add_object(Finding *f, const ShownSurface *shown)
 {
     char text[SELECTOR_MAX];
-    return shown_selector(text, shown, SCOPE_OBJECT, &f->materials, NULL)
+    return shown_selector(text, shown, SCOPE_OBJECT, &f->known->materials, NULL)
                ? add(f, text, SCOPE_OBJECT, name_of_object(f, shown))
                : 0;
 }
@@ -142,8 +131,8 @@ static int add_object(Finding *f, const ShownSurface *shown)
 static int add_material(Finding *f, const ShownSurface *shown)
 {
     char text[SELECTOR_MAX];
-    const char *name = shown->part.texture ? materials_name(&f->materials, shown->part.texture) : NULL;
-    return shown_selector(text, shown, SCOPE_MATERIAL, &f->materials, NULL)
+    const char *name = shown->part.texture ? materials_name(&f->known->materials, shown->part.texture) : NULL;
+    return shown_selector(text, shown, SCOPE_MATERIAL, &f->known->materials, NULL)
                ? add(f, text, SCOPE_MATERIAL, name ? scene_name_of(f->window->scene, name) : NULL)
                : 0;
 }
@@ -153,10 +142,10 @@ static int add_flat(Finding *f, const ShownSurface *shown)
     char text[SELECTOR_MAX];
     if (!faces_count(shown->primitive))
         return 0;
-    const struct KnownFaces *known = scene_faces_of(&f->scene_faces, shown->primitive);
+    const struct KnownFaces *known = scene_faces_of(&f->known->faces, shown->primitive);
     if (!known)
         return -1;
-    return known->flat && shown_selector(text, shown, SCOPE_FLAT, &f->materials, known->flat)
+    return known->flat && shown_selector(text, shown, SCOPE_FLAT, &f->known->materials, known->flat)
                ? add(f, text, SCOPE_FLAT, NULL)
                : 0;
 }
@@ -201,19 +190,29 @@ static int name_pixels(Finding *f)
 
 /* ---- levels ---- */
 
-/* The face that is seen most, of the flat faces that are seen most and of which no level is known. -1: there are none
- * that are worth it. weights: room, by surface. */
-static int next_face(const Finding *f, int *weights)
+/* What is looked for by: where the first copy of each seen face is, and weights of flat faces by surface. */
+typedef struct LevelSearch {
+    Face *placed; /* without corners: it has no area */
+    int *weights, least;
+} LevelSearch;
+
+static int is_placed(const Face *face)
 {
-    const int pixels = f->window->w * f->window->h;
-    int flat = 0, best = -1;
+    return face->ncorners > 0;
+}
+
+/* The face that is seen most, of the flat faces that are seen most and of which no level is known. -1: there are none
+ * that are worth it. */
+static int next_face(const Finding *f, const LevelSearch *search)
+{
+    int flat = 0, best = -1, *weights = search->weights;
     memset(weights, 0, ((size_t)f->all->count + 1) * sizeof *weights);
     for (int k = 0; k < f->nfaces; k++)
         if (!f->faces[k].level)
             weights[f->faces[k].flat] += f->faces[k].pixels;
     for (int k = 1; k <= f->all->count; k++)
         flat = weights[k] > weights[flat] ? k : flat;
-    if (weights[flat] < pixels / LEVEL_LEAST + 1)
+    if (weights[flat] < search->least)
         return -1;
     for (int k = 0; k < f->nfaces; k++)
         if (!f->faces[k].level && f->faces[k].flat == flat && (best < 0 || f->faces[k].pixels > f->faces[best].pixels))
@@ -221,43 +220,68 @@ static int next_face(const Finding *f, int *weights)
     return best;
 }
 
-/* -1: of faces that have none, which are not to be looked at again. */
-static int take_level(Finding *f, SeenFace *face)
+/* 1: the face is on the level. Most are not, as their first copy tells. */
+static int is_on(const Finding *f, const LevelSearch *search, const FaceLevel *level, int face)
+{
+    const SeenFace *seen = &f->faces[face];
+    const struct KnownFaces *known = scene_faces_of(&f->known->faces, seen->primitive);
+    return is_placed(&search->placed[face]) &&
+           faces_is_on_level(level, &search->placed[face], known->owner.is_open) &&
+           (known->owner.first_copy < 0 ||
+            faces_are_on_level(level, f->window->scene, &known->owner, seen->face));
+}
+
+/* Mark the faces of a face's level: -1 where they are too few, and are not to be looked at again. 0: no memory. */
+static int take_level(Finding *f, const LevelSearch *search, SeenFace *face)
 {
     const Scene *scene = f->window->scene;
-    const FaceSelection of = {
-        .number = (int)(face->primitive - scene->primitives) + 1, .face = face->face + 1, .level = 1, .text = ""};
+    const struct KnownFaces *known = scene_faces_of(&f->known->faces, face->primitive);
     FaceLevel level;
     char text[SELECTOR_MAX];
+    int pixels = 0;
     face->level = -1;
-    if (faces_level(&level, scene, &of, NULL))
+    if (faces_level_of(&level, scene, &known->owner, face->face))
         return 1;
-    snprintf(text, sizeof text, "#%d/level:%d", of.number, of.face);
-    const int found = add(f, text, SCOPE_LEVEL, NULL);
-    if (found <= 0)
-        return found == 0;
-    face->level = found;
+    for (int k = 0; k < f->nfaces; k++)
+        if (&f->faces[k] == face || (!f->faces[k].level && is_on(f, search, &level, k)))
+            f->faces[k].level = LEVEL_NEW, pixels += f->faces[k].pixels;
+    snprintf(text, sizeof text, "#%d/level:%d", (int)(face->primitive - scene->primitives) + 1, face->face + 1);
+    const int found = pixels < search->least ? 0 : add(f, text, SCOPE_LEVEL, NULL);
+    for (int k = 0; k < f->nfaces; k++)
+        if (f->faces[k].level == LEVEL_NEW)
+            f->faces[k].level = found > 0 ? found : -1;
+    return found >= 0;
+}
+
+static void place_faces(const Finding *f, const LevelSearch *search)
+{
     for (int k = 0; k < f->nfaces; k++) {
-        SeenFace *other = &f->faces[k];
-        if (other->level)
-            continue;
-        const struct KnownFaces *known = scene_faces_of(&f->scene_faces, other->primitive);
-        if (known && faces_are_on_level(&level, scene, &known->owner, other->face))
-            other->level = found;
+        const SeenFace *seen = &f->faces[k];
+        const struct KnownFaces *known = scene_faces_of(&f->known->faces, seen->primitive);
+        const int first = known->owner.first_copy;
+        if ((seen->primitive->prototype && first < 0) ||
+            !faces_placed(seen->primitive, first < 0 ? NULL : &f->window->scene->instances[first], seen->face,
+                          &search->placed[k]))
+            search->placed[k].ncorners = 0;
     }
-    return 1;
 }
 
 static int find_levels(Finding *f)
 {
     const int pixels = f->window->w * f->window->h;
-    int *weights = malloc(((size_t)f->all->count + LEVELS_MAX + 1) * sizeof *weights), is_right = weights != NULL;
-    for (int n = 0, face; is_right && n < LEVELS_MAX && (face = next_face(f, weights)) >= 0; n++)
-        is_right = take_level(f, &f->faces[face]);
+    LevelSearch search = {.least = pixels / LEVEL_LEAST + 1};
+    search.placed = malloc(((size_t)f->nfaces + 1) * sizeof *search.placed);
+    search.weights = malloc(((size_t)f->all->count + LEVELS_TRIED + 1) * sizeof *search.weights);
+    int is_right = search.placed && search.weights;
+    if (is_right)
+        place_faces(f, &search);
+    for (int n = 0, face; is_right && n < LEVELS_TRIED && (face = next_face(f, &search)) >= 0; n++)
+        is_right = take_level(f, &search, &f->faces[face]);
     for (int k = 0; is_right && k < pixels; k++)
         if (f->face_of[k] >= 0 && f->faces[f->face_of[k]].level > 0)
             plane(f, LEVEL)[k] = (uint16_t)f->faces[f->face_of[k]].level;
-    free(weights);
+    free(search.placed);
+    free(search.weights);
     return is_right;
 }
 
@@ -289,16 +313,35 @@ static int open_finding(Finding *f)
     f->faces = malloc(pixels * sizeof *f->faces);
     f->face_of = malloc(pixels * sizeof *f->face_of);
     f->face_slots = calloc((size_t)f->nface_slots, sizeof *f->face_slots);
-    return f->all->planes && f->shown && f->faces && f->face_of && f->face_slots &&
-           materials_open(&f->materials, w->scene) && scene_faces_open(&f->scene_faces, w->scene);
+    return f->all->planes && f->shown && f->faces && f->face_of && f->face_slots;
 }
 
-int surfaces_find(Surfaces *surfaces, const FirstHitWindow *window, RetexBudget *budget, RetexError *err)
+int scene_surfaces_open(SceneSurfaces *known, const Scene *scene, RetexError *err)
+{
+    *known = (SceneSurfaces){.scene = scene};
+    if (materials_open(&known->materials, scene) && scene_faces_open(&known->faces, scene))
+        return RETEX_OK;
+    scene_surfaces_close(known);
+    return retex_fail(err, RETEX_ENOMEM, "out of memory for the scene's surfaces");
+}
+
+void scene_surfaces_close(SceneSurfaces *known)
+{
+    if (!known->scene)
+        return;
+    materials_close(&known->materials);
+    scene_faces_close(&known->faces);
+    known->scene = NULL;
+}
+
+int surfaces_find(Surfaces *surfaces, SceneSurfaces *known, const FirstHitWindow *window, RetexBudget *budget,
+                  RetexError *err)
 {
     const uint64_t pixels = (uint64_t)window->w * (uint64_t)window->h;
     const uint64_t bytes =
-        pixels * (sizeof(ShownSurface) + sizeof(SeenFace) + 5 * sizeof(int) + SURFACE_SCOPES * sizeof(uint16_t));
-    Finding f = {.window = window, .all = surfaces};
+        pixels * (sizeof(ShownSurface) + sizeof(SeenFace) + sizeof(Face) + 5 * sizeof(int) +
+                                     SURFACE_SCOPES * sizeof(uint16_t));
+    Finding f = {.window = window, .all = surfaces, .known = known};
     *surfaces = (Surfaces){.count = 0};
     int code = retex_budget_charge(budget, bytes, "what pixels show", err);
     if (code)
@@ -315,8 +358,6 @@ int surfaces_find(Surfaces *surfaces, const FirstHitWindow *window, RetexBudget 
     free(f.face_of);
     free(f.face_slots);
     free(f.slots);
-    materials_close(&f.materials);
-    scene_faces_close(&f.scene_faces);
     if (is_right)
         return RETEX_OK;
     surfaces_close(surfaces, budget);

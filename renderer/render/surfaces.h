@@ -3,6 +3,7 @@
 #define RENDERER_RENDER_SURFACES_H
 
 #include "render/first_hit.h"
+#include "render/scene_faces.h"
 
 enum { SURFACE_SCOPES = 4, SURFACES_MAX = 65535 };
 
@@ -22,10 +23,21 @@ typedef struct Surfaces {
 
 extern const SelectorScope surface_scopes[SURFACE_SCOPES]; /* material, object, flat, level */
 
+/* What no view changes: it is found where it is first asked for, and kept for the next view. */
+typedef struct SceneSurfaces {
+    const Scene *scene; /* NULL: not open */
+    Materials materials;
+    SceneFaces faces;
+} SceneSurfaces;
+
+int scene_surfaces_open(SceneSurfaces *known, const Scene *scene, RetexError *err);
+void scene_surfaces_close(SceneSurfaces *known);
+
 /* By the rays through the pixels' centres. A target of a surface's text has the pixels that its plane shows. What has
- * no faces has neither flat ones nor a level; levels are found for the faces that are seen most, the largest first, and
- * a face belongs to the first one that has it. */
-int surfaces_find(Surfaces *surfaces, const FirstHitWindow *window, RetexBudget *budget, RetexError *err);
+ * no faces has neither flat ones nor a level; levels are those that have at least a thousandth of the picture, found
+ * from the faces that are seen most, and a face belongs to the first one that has it. */
+int surfaces_find(Surfaces *surfaces, SceneSurfaces *known, const FirstHitWindow *window, RetexBudget *budget,
+                  RetexError *err);
 void surfaces_close(Surfaces *surfaces, RetexBudget *budget);
 
 /* Where textures go: by pixel 1 + the target that is seen most at its centre, or 0, and its UV. */

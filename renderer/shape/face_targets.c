@@ -54,10 +54,11 @@ static int mark_flat(Marks *marks, const FaceSelection *of, int target, RetexErr
 static int mark_level(Marks *marks, const FaceLevel *level, int target, RetexError *err)
 {
     const Scene *scene = marks->scene;
+    const double size = faces_scene_size(scene);
     int code = RETEX_OK;
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        const FaceOwner owner = faces_owner(scene, p);
+        const FaceOwner owner = faces_owner(scene, p, size);
         for (int face = 0; face < faces_count(p) && !code; face++)
             if (faces_are_on_level(level, scene, &owner, face))
                 code = mark(marks, k, face, target, err);

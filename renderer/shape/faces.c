@@ -1,6 +1,7 @@
 /* See faces.h. */
 #include <stdlib.h>
 #include <string.h>
+#include "base/digest.h"
 #include "shape/faces.h"
 #include "shape/shape.h"
 
@@ -96,11 +97,7 @@ typedef struct Flat {
 
 static unsigned hash(const void *bytes, size_t size)
 {
-    const unsigned char *at = bytes;
-    uint64_t h = 1469598103934665603u;
-    for (size_t k = 0; k < size; k++)
-        h = (h ^ at[k]) * 1099511628211u;
-    return (unsigned)(h ^ h >> 32);
+    return (unsigned)digest_bytes(DIGEST_BEGIN, bytes, size);
 }
 
 static void find_same_vertices(Flat *f)
@@ -248,15 +245,6 @@ static int is_open(const Primitive *p)
     return mesh ? vec_length(sum) > 1e-6 * area : p->shape.ops == &shape_disc;
 }
 
-FaceOwner faces_owner(const Scene *scene, const Primitive *p)
-{
-    FaceOwner owner = {p, -1, is_open(p)};
-    for (int k = 0; p->prototype && owner.first_copy < 0 && k < scene->ninstances; k++)
-        if (scene->instances[k].prototype == p->prototype)
-            owner.first_copy = k;
-    return owner;
-}
-
 static double diagonal(Vec3 low, Vec3 high)
 {
     const double size = vec_length(vec_sub(high, low));
@@ -264,7 +252,7 @@ static double diagonal(Vec3 low, Vec3 high)
 }
 
 /* Of everything that has bounds: of prototypes as they are, which is near enough for a tolerance. */
-static double scene_diagonal(const Scene *scene)
+double faces_scene_size(const Scene *scene)
 {
     Vec3 low = {INFINITY, INFINITY, INFINITY}, high = vec_neg(low), one_low, one_high;
     for (int k = 0; k < scene->nprimitives; k++)
@@ -275,12 +263,21 @@ static double scene_diagonal(const Scene *scene)
     return diagonal(low, high);
 }
 
-static double tolerance(const Scene *scene, const Primitive *p)
+static double tolerance(const Primitive *p, double scene_size)
 {
     Vec3 low, high;
-    const double whole = scene_diagonal(scene), own = shape_bounds(p, &low, &high) ? diagonal(low, high) : INFINITY;
-    const double least = fmin(own / 100, whole / 200);
+    const double own = shape_bounds(p, &low, &high) ? diagonal(low, high) : INFINITY;
+    const double least = fmin(own / 100, scene_size / 200);
     return isfinite(least) ? least : 1e-3;
+}
+
+FaceOwner faces_owner(const Scene *scene, const Primitive *p, double scene_size)
+{
+    FaceOwner owner = {p, -1, is_open(p), tolerance(p, scene_size)};
+    for (int k = 0; p->prototype && owner.first_copy < 0 && k < scene->ninstances; k++)
+        if (scene->instances[k].prototype == p->prototype)
+            owner.first_copy = k;
+    return owner;
 }
 
 int faces_is_on_level(const FaceLevel *level, const Face *face, int is_open)
@@ -328,24 +325,31 @@ int faces_check(const Scene *scene, const FaceSelection *of, RetexError *err)
     return RETEX_OK;
 }
 
+int faces_level_of(FaceLevel *level, const Scene *scene, const FaceOwner *owner, int face_number)
+{
+    const Primitive *p = owner->primitive;
+    const Instance *instance = owner->first_copy < 0 ? NULL : &scene->instances[owner->first_copy];
+    Face face;
+    if ((p->prototype && !instance) || !faces_placed(p, instance, face_number, &face))
+        return RETEX_ENOTFOUND;
+    *level = (FaceLevel){{0, 0, 0}, face.normal, owner->tolerance, owner->is_open};
+    for (int k = 0; k < face.ncorners; k++)
+        level->point = vec_mad(level->point, face.corners[k], 1.0 / face.ncorners);
+    return faces_are_on_level(level, scene, owner, face_number) ? RETEX_OK : RETEX_EUNSUPPORTED;
+}
+
 int faces_level(FaceLevel *level, const Scene *scene, const FaceSelection *of, RetexError *err)
 {
-    const Primitive *p = &scene->primitives[of->number - 1];
-    const FaceOwner owner = faces_owner(scene, p);
-    const Instance *instance = owner.first_copy < 0 ? NULL : &scene->instances[owner.first_copy];
-    Face face;
     int code = faces_check(scene, of, err);
     if (code)
         return code;
-    if ((p->prototype && !instance) || !faces_placed(p, instance, of->face - 1, &face))
-        return retex_fail(err, RETEX_ENOTFOUND, "no face `%s` in the scene", of->text);
-    *level = (FaceLevel){{0, 0, 0}, face.normal, tolerance(scene, p), owner.is_open};
-    for (int k = 0; k < face.ncorners; k++)
-        level->point = vec_mad(level->point, face.corners[k], 1.0 / face.ncorners);
-    if (!faces_are_on_level(level, scene, &owner, of->face - 1))
-        return retex_fail(err, RETEX_EUNSUPPORTED,
-                          "target `%s`: object #%d has copies on several levels; #%d/flat:%d takes the face in all of "
-                          "them",
-                          of->text, of->number, of->number, of->face);
-    return RETEX_OK;
+    const FaceOwner owner = faces_owner(scene, &scene->primitives[of->number - 1], faces_scene_size(scene));
+    code = faces_level_of(level, scene, &owner, of->face - 1);
+    if (code == RETEX_ENOTFOUND)
+        retex_fail(err, code, "no face `%s` in the scene", of->text);
+    else if (code)
+        retex_fail(err, code,
+                   "target `%s`: object #%d has copies on several levels; #%d/flat:%d takes the face in all of them",
+                   of->text, of->number, of->number, of->face);
+    return code;
 }

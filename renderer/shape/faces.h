@@ -38,9 +38,13 @@ typedef struct FaceOwner {
     const Primitive *primitive;
     int first_copy; /* index of the first instance that has it; -1: it is no part of a prototype, or there is none */
     int is_open;    /* 1: a surface that is not closed, which has no inside: both of its sides count as outward */
+    double tolerance; /* of levels of its faces */
 } FaceOwner;
 
-FaceOwner faces_owner(const Scene *scene, const Primitive *primitive);
+/* The diagonal of a scene's bounds, INFINITY where it has none. */
+double faces_scene_size(const Scene *scene);
+/* scene_size: that diagonal. */
+FaceOwner faces_owner(const Scene *scene, const Primitive *primitive, double scene_size);
 
 typedef struct FaceLevel {
     Vec3 point, normal;
@@ -52,6 +56,8 @@ typedef struct FaceLevel {
 int faces_check(const Scene *scene, const FaceSelection *of, RetexError *err);
 /* The level of a face. Besides, RETEX_EUNSUPPORTED: copies of it are not level. */
 int faces_level(FaceLevel *level, const Scene *scene, const FaceSelection *of, RetexError *err);
+/* The same of an owner's face that there is; only the code. */
+int faces_level_of(FaceLevel *level, const Scene *scene, const FaceOwner *owner, int face);
 /* 1: the face is on it. is_open: as of its owner. */
 int faces_is_on_level(const FaceLevel *level, const Face *face, int is_open);
 /* 1: the owner's face is on it, in all copies. */

@@ -96,6 +96,22 @@ def surfaces():
     print('nothing' if (planes[0] == 0).any() else 'all')
 
 
+def levels():
+    """All levels that are a thousandth of the picture: more than there are of anything else. Smaller ones are none."""
+    boxes = [f'box {{ <{x}.1,0,{z}.1>, <{x}.9,{.5 + .08 * (9 * z + x)},{z}.9> pigment {{ rgb .5 }} }}'
+             for z in range(9) for x in range(9)]
+    open('many.pov', 'w').write('camera { orthographic sky z location <4.5,20,4.5> look_at <4.5,0,4.5> up y*9 '
+                                'right x*9 } light_source { 9 1 } '
+                                'box { <-.02,0,-.02>, <.09,8,.09> pigment { rgb 1 } }' + ''.join(boxes))
+    live = Live('many.pov')
+    head, data = live.ask('surfaces 270 270 -')
+    objects, found = (numpy.frombuffer(data, numpy.uint16).reshape(4, -1)[k] for k in (1, 3))
+    pairs = {(o, l) for o, l in zip(objects, found) if o}
+    small = min(pairs, key=lambda pair: (objects == pair[0]).sum())
+    print(len(pairs), len({l for _, l in pairs}), small[1], (objects == small[0]).sum() < 270 * 270 / 1000)
+    print(min((found == l).mean() for _, l in pairs if l) >= .001, live.end())
+
+
 def uv():
     live = Live('-t', 'Floor', '-t', 'Box=#3:uv=box', '--unit', 'cm', 'live.pov')
     head, data = live.ask(f'uv {W} {H} -')

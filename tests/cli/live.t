@@ -38,6 +38,9 @@ $ /usr/bin/python3 -B "$TESTS/live.py" surfaces
 > level #4/level:4  True True
 > level #4/level:2  True True
 > nothing
+$ /usr/bin/python3 -B "$TESTS/live.py" levels
+> 82 82 0 True
+> True (0, b'')
 $ /usr/bin/python3 -B "$TESTS/live.py" uv
 > [{'target': 'Floor', 'unit': [0.01, 0.01]}, {'target': 'Box', 'unit': [1, 1]}] [0, 1, 2]
 > Floor True

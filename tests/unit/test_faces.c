@@ -231,7 +231,7 @@ static void levels_by_hand(void **state)
     assert_int_equal(faces_level(&level, scene, &scene->targets[0].selections[0], &err), 0);
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *p = &scene->primitives[i];
-        const FaceOwner owner = faces_owner(scene, p);
+        const FaceOwner owner = faces_owner(scene, p, faces_scene_size(scene));
         for (int k = 0; k < faces_count(p); k++) {
             const int expected = on_level[i] >> k & 1;
             const int marked = p->faces ? p->faces->of[k] == 0 : p->target == 0;
