@@ -5,7 +5,7 @@ import hashlib, http.client, json, os, re, select, shutil, signal, socket, struc
 sys.path.append(os.path.join(os.path.dirname(__file__), '..', 'serve'))
 sys.dont_write_bytecode = True
 import heads as heads_sent
-from serve_ask import ask, combine, ended, expect, metric, receive_all, run, send, send_all, wait_for
+from serve_ask import ask, combine, cover, ended, expect, metric, receive_all, run, send, send_all, wait_for
 
 
 # ---- pictures ----
@@ -46,14 +46,6 @@ def parts(server):
         pixels = numpy.array(file.read_image('uint8'), dtype=float)[:, :, :3] / 255
         file.close()
         return numpy.where(pixels <= .04045, pixels / 12.92, ((pixels + .055) / 1.055) ** 2.4)
-
-    def cover(pixels, count):
-        """Rows of pixels as `count` rows, each the mean of what it covers."""
-        edges = numpy.arange(count + 1) * len(pixels) / count
-        sums = numpy.concatenate([numpy.zeros_like(pixels[:1]), numpy.cumsum(pixels, axis=0)])
-        at = numpy.minimum(edges.astype(int), len(pixels) - 1)
-        sums = sums[at] + (edges - at)[:, None, None] * pixels[at]
-        return (sums[1:] - sums[:-1]) * count / len(pixels)
 
     combine('whole.png', 'rooms/small.retex', '--texture', 'Floor=textures/oak.jpg')
     whole = read('whole.png')

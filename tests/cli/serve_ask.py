@@ -26,6 +26,16 @@ def ask(server, path, method='GET', source='127.0.0.1', **headers):
     return answer
 
 
+def cover(pixels, count):
+    """Rows of pixels as `count` rows, each the mean of what it covers."""
+    import numpy
+    edges = numpy.arange(count + 1) * len(pixels) / count
+    sums = numpy.concatenate([numpy.zeros_like(pixels[:1]), numpy.cumsum(pixels, axis=0)])
+    at = numpy.minimum(edges.astype(int), len(pixels) - 1)
+    sums = sums[at] + (edges - at)[:, None, None] * pixels[at]
+    return (sums[1:] - sums[:-1]) * count / len(pixels)
+
+
 def send_all(server, paths, headers=''):
     """Sends requests without waiting for an answer, and returns their sockets."""
     clients = []

@@ -4,7 +4,7 @@ import json, os, shutil, sys, time
 sys.dont_write_bytecode = True
 import numpy
 import OpenImageIO as oiio
-from serve_ask import ask, expect, metric, run, send
+from serve_ask import ask, cover, expect, metric, run, send
 
 
 def linear(codes):
@@ -30,15 +30,6 @@ def read(data):
     pixels = numpy.array(file.read_image('uint8'), dtype=float)[:, :, :3] / 255
     file.close()
     return pixels
-
-
-def cover(pixels, count):
-    """Rows of pixels as `count` rows, each the mean of what it covers."""
-    edges = numpy.arange(count + 1) * len(pixels) / count
-    sums = numpy.concatenate([numpy.zeros_like(pixels[:1]), numpy.cumsum(pixels, axis=0)])
-    at = numpy.minimum(edges.astype(int), len(pixels) - 1)
-    sums = sums[at] + (edges - at)[:, None, None] * pixels[at]
-    return (sums[1:] - sums[:-1]) * count / len(pixels)
 
 
 def make(name, width, height, channels, kind):

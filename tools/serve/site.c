@@ -10,9 +10,9 @@
 #include <retex/version.h>
 
 #include "http/hash.h"
+#include "http/thumbnail.h"
 #include "json_text.h"
 #include "picture.h"
-#include "thumbnail.h"
 
 /* ---- what a request is of ---- */
 
@@ -440,8 +440,8 @@ static Answer *make_texture(const Site *site, const WorkItem *item, int nthreads
         retex_image_free(&image);
         return answer_error(request.status, "%s", request.reason);
     }
-    const int code = thumbnail_make(&image, &place, request.format, quality_of(site, &request), nthreads, &data, &bytes,
-                                    &err);
+    const int code = thumbnail_make(&image, &place, serve_format_extension(request.format), quality_of(site, &request),
+                                    nthreads, &data, &bytes, &err);
     retex_image_free(&image);
     Answer *answer = code ? answer_of_error(&err) : answer_new(200, serve_format_type(request.format), data, bytes);
     if (!code && answer) {

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include <retex/picture.h>
-#include <retex/shrink.h>
 
 #include "http/hash.h"
+#include "http/thumbnail.h"
 
 enum { QUALITY = 85, SECONDS = 20 };
 
@@ -88,55 +88,17 @@ static void keep(Thumbs *thumbs, const char *key, const void *data, size_t bytes
 
 /* ---- making one ---- */
 
-/* Shown over white, no brighter than it. */
-static void lay_over_white(float *rgb, const float *rgba, int width)
-{
-    for (int x = 0; x < width; x++, rgb += 3, rgba += 4) {
-        const float alpha = rgba[3] > 0 ? fminf(rgba[3], 1) : 0;
-        for (int c = 0; c < 3; c++)
-            rgb[c] = (rgba[c] > 0 ? fminf(rgba[c], 1) : 0) * alpha + (1 - alpha);
-    }
-}
-
-static int shrink(const RetexImage *image, int size, RetexImage *small, RetexError *err)
+/* The whole of it, within `size`; never enlarged. */
+static RetexCut cut_of(const RetexImage *image, int size)
 {
     const int larger = image->width > image->height ? image->width : image->height;
     const double scale = larger > size ? (double)size / larger : 1;
-    const RetexCut cut = {0,
-                          0,
-                          image->width,
-                          image->height,
-                          (int)fmax(1, floor(image->width * scale + 0.5)),
-                          (int)fmax(1, floor(image->height * scale + 0.5))};
-    RetexShrink *shrinking = NULL;
-    float *row = malloc(3 * (size_t)image->width * sizeof *row);
-    int code = row ? retex_shrink_open(&shrinking, &cut, image->width, err)
-                   : retex_fail(err, RETEX_ENOMEM, "not enough memory for a thumbnail");
-    for (int y = 0; y < image->height && !code; y++) {
-        lay_over_white(row, image->pixels + retex_image_index(image, 0, y), image->width);
-        code = retex_shrink_rows(shrinking, y, y + 1, row, err);
-    }
-    if (!code)
-        code = retex_shrink_take(&shrinking, small, 1, err);
-    retex_shrink_close(&shrinking);
-    free(row);
-    return code;
-}
-
-static int encode(const RetexImage *small, void **data, size_t *bytes, RetexError *err)
-{
-    RetexWriteParams params = RETEX_WRITE_INIT;
-    RetexPicture *picture = NULL;
-    params.quality = QUALITY;
-    if (getenv("OCIO")) /* whose display may have a look of its own */
-        params.colorspace = "sRGB";
-    int code = retex_picture_open_memory(&picture, "jpg", small->width, small->height, 3, &params, err);
-    if (!code)
-        code = retex_picture_image(picture, small, 1, err);
-    if (!code)
-        code = retex_picture_take(&picture, data, bytes, err);
-    retex_picture_close(&picture, 0, NULL);
-    return code;
+    return (RetexCut){0,
+                      0,
+                      image->width,
+                      image->height,
+                      (int)fmax(1, floor(image->width * scale + 0.5)),
+                      (int)fmax(1, floor(image->height * scale + 0.5))};
 }
 
 static int decode(RetexImage *image, const char *path, const RetexAccess *access, const RetexBudget *of,
@@ -160,14 +122,13 @@ static int decode(RetexImage *image, const char *path, const RetexAccess *access
 static int make(const char *path, const RetexAccess *access, const RetexBudget *budget, int size, void **data,
                 size_t *bytes, RetexError *err)
 {
-    RetexImage image = {0}, small = {0};
+    RetexImage image = {0};
     int code = decode(&image, path, access, budget, err);
-    if (!code)
-        code = shrink(&image, size, &small, err);
-    if (!code)
-        code = encode(&small, data, bytes, err);
+    if (!code) {
+        const RetexCut cut = cut_of(&image, size);
+        code = thumbnail_make(&image, &cut, "jpg", QUALITY, 1, data, bytes, err);
+    }
     retex_image_free(&image);
-    retex_image_free(&small);
     return code;
 }
 

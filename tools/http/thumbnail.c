@@ -38,7 +38,7 @@ static int shrink(const RetexImage *image, const RetexCut *place, int nthreads, 
     return code;
 }
 
-int thumbnail_make(const RetexImage *image, const RetexCut *place, ServeFormat format, int quality, int nthreads,
+int thumbnail_make(const RetexImage *image, const RetexCut *place, const char *extension, int quality, int nthreads,
                    void **data, size_t *bytes, RetexError *err)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
@@ -49,8 +49,7 @@ int thumbnail_make(const RetexImage *image, const RetexCut *place, ServeFormat f
         params.colorspace = "sRGB";
     int code = shrink(image, place, nthreads, &small, err);
     if (!code)
-        code = retex_picture_open_memory(&picture, serve_format_extension(format), small.width, small.height, 3,
-                                         &params, err);
+        code = retex_picture_open_memory(&picture, extension, small.width, small.height, 3, &params, err);
     if (!code)
         code = retex_picture_image(picture, &small, nthreads, err);
     if (!code)
