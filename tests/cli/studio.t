@@ -4,9 +4,10 @@ $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate 
 > roots
 > uploads
 > thumbs
-$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio full project events
+$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio full project models events
 > full
 > project
+> models
 > events
 $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio jobs killed resumed crashed quits
 > jobs

@@ -15,7 +15,7 @@ FOCUS = "(() => { let e = document.activeElement; while (e?.shadowRoot?.activeEl
 
 
 def write_project(work, **change):
-    with open(f"{work}/room.studio.json", "w", encoding="utf-8") as file:
+    with open(f"{work}/room.pov.studio.json", "w", encoding="utf-8") as file:
         json.dump({"retex-studio": 1, "model": "room.pov", "render": SMALL, **change}, file)
 
 

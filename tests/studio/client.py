@@ -102,47 +102,47 @@ def gate(server):
 
 def roots(server):
     """Nothing outside of the folders is read, wherever paths and links lead."""
-    os.makedirs(f'{server.folder}/room.studio/page')
+    os.makedirs(f'{server.folder}/room.pov.studio/page')
     os.makedirs(f'{server.folder}/home/.ssh', exist_ok=True)
     open(f'{server.folder}/home/.ssh/id', 'w').write('secret')
-    open(f'{server.folder}/room.studio/page/room.json', 'w').write('0123456789')
-    os.symlink('/etc/passwd', f'{server.folder}/room.studio/passwd')
-    os.symlink('/etc', f'{server.folder}/room.studio/etc')
-    answer = server.ask('files/room.studio/page/room.json')
+    open(f'{server.folder}/room.pov.studio/page/room.json', 'w').write('0123456789')
+    os.symlink('/etc/passwd', f'{server.folder}/room.pov.studio/passwd')
+    os.symlink('/etc', f'{server.folder}/room.pov.studio/etc')
+    answer = server.ask('files/room.pov.studio/page/room.json')
     expect('a file', (answer.status, answer.body, answer.headers['Content-Type']),
            (200, b'0123456789', 'application/json'))
-    expect('unchanged', status(server, 'files/room.studio/page/room.json', If_None_Match=answer.headers['ETag']), 304)
+    expect('unchanged', status(server, 'files/room.pov.studio/page/room.json', If_None_Match=answer.headers['ETag']), 304)
     for range_of, wanted in ('2-4', (206, b'234')), ('7-', (206, b'789')), ('-3', (206, b'789')), ('4-99', (206, b'456789')):
-        part = server.ask('files/room.studio/page/room.json', Range='bytes=' + range_of)
+        part = server.ask('files/room.pov.studio/page/room.json', Range='bytes=' + range_of)
         expect(range_of, (part.status, part.body), wanted)
-    expect('no such part', status(server, 'files/room.studio/page/room.json', Range='bytes=10-'), 416)
-    for path in ('room.pov', 'room.studio/passwd', 'room.studio/etc/passwd', '/etc/passwd', 'room.studio/../room.pov',
-                 'room.studio/%2e%2e/room.pov', 'room.studio/page/../../address', '/proc/self/environ'):
+    expect('no such part', status(server, 'files/room.pov.studio/page/room.json', Range='bytes=10-'), 416)
+    for path in ('room.pov', 'room.pov.studio/passwd', 'room.pov.studio/etc/passwd', '/etc/passwd', 'room.pov.studio/../room.pov',
+                 'room.pov.studio/%2e%2e/room.pov', 'room.pov.studio/page/../../address', '/proc/self/environ'):
         expect('files/' + path, status(server, 'files/' + path), 403)
-    expect('no file', status(server, 'files/room.studio/none'), 404)
+    expect('no file', status(server, 'files/room.pov.studio/none'), 404)
     home = os.path.abspath(server.folder) + '/home'
-    for path in '/etc', home + '/.ssh', '..', 'room.studio/etc', '/':
+    for path in '/etc', home + '/.ssh', '..', 'room.pov.studio/etc', '/':
         expect('list of ' + path, status(server, 'api/folder?path=' + path), 403)
         expect('thumbnail of ' + path, status(server, 'api/thumb?path=' + path + '/x.png'), 403)
         expect('opening ' + path, status(server, 'api/open', 'POST', {'path': path + '/x.pov'}), 403)
     kinds = {entry['name']: (entry['kind'], entry['path']) for entry in server.json('api/folder')['entries']}
     expect('scene', kinds['room.pov'], ('scene', 'room.pov'))
     expect('no folder', status(server, 'api/folder?path=none'), 404)
-    expect('a folder to come', server.json('api/folder?path=room.studio/files')['entries'], [])
-    expect('page', server.json('api/folder?path=room.studio')['entries'][-1]['kind'] in ('page', 'file'), True)
+    expect('a folder to come', server.json('api/folder?path=room.pov.studio/files')['entries'], [])
+    expect('page', server.json('api/folder?path=room.pov.studio')['entries'][-1]['kind'] in ('page', 'file'), True)
 
 
 def uploads(server):
     send = lambda name, body: server.ask('api/upload?name=' + name, 'POST', body)
     path = lambda answer: json.loads(answer.body).get('path')
-    expect('a file', path(send('oak.jpg', b'oak')), 'room.studio/files/oak.jpg')
-    expect('again', path(send('oak.jpg', b'oak')), 'room.studio/files/oak.jpg')
-    expect('another', path(send('oak.jpg', b'elm')), 'room.studio/files/oak-2.jpg')
-    expect('upwards', path(send('..%2F..%2F.ssh/%00id', b'x'))[:18], 'room.studio/files/')
-    expect('folders', path(send('a/../b\\c:d.png', b'x')), 'room.studio/files/a/b/c_d.png')
+    expect('a file', path(send('oak.jpg', b'oak')), 'room.pov.studio/files/oak.jpg')
+    expect('again', path(send('oak.jpg', b'oak')), 'room.pov.studio/files/oak.jpg')
+    expect('another', path(send('oak.jpg', b'elm')), 'room.pov.studio/files/oak-2.jpg')
+    expect('upwards', path(send('..%2F..%2F.ssh/%00id', b'x'))[:22], 'room.pov.studio/files/')
+    expect('folders', path(send('a/../b\\c:d.png', b'x')), 'room.pov.studio/files/a/b/c_d.png')
     expect('no name', send('..', b'x').status, 422)
     expect('too large', status(server, 'api/upload?name=x', 'POST', b'', Content_Length=str(1 << 40)), 413)
-    os.symlink('/tmp', f'{server.folder}/room.studio/files/out')
+    os.symlink('/tmp', f'{server.folder}/room.pov.studio/files/out')
     expect('through a link', send('out/x', b'x').status, 403)
     expect('a model', path(server.ask('api/upload?name=m.pov&as=model', 'POST', SCENE)),
            'home/retex-studio/m.pov')
@@ -150,7 +150,7 @@ def uploads(server):
         raw.sendall(f'POST /{server.token}/api/upload?name=half HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n'
                     'Content-Length: 1000\r\n\r\nhalf'.encode())
     time.sleep(.3)
-    expect('what is left', [name for name in os.listdir(f'{server.folder}/room.studio/files')
+    expect('what is left', [name for name in os.listdir(f'{server.folder}/room.pov.studio/files')
                             if 'half' in name or name.startswith('.')], [])
 
 
@@ -177,7 +177,7 @@ def full(server):
     resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (100000, 100000))
     answer = server.ask('api/upload?name=large', 'POST', b'x' * 300000)
     expect('large', (answer.status, json.loads(answer.body)), (507, {'error': 'the disk is full: the file was not kept'}))
-    expect('what is left', os.listdir(f'{server.folder}/room.studio/files'), [])
+    expect('what is left', os.listdir(f'{server.folder}/room.pov.studio/files'), [])
     answer = server.ask('api/project', 'PUT', json.dumps({'x': 'x' * 200000}), If_None_Match='*')
     expect('project', (answer.status, [name for name in os.listdir(server.folder) if 'json' in name]), (507, []))
     expect('small', status(server, 'api/upload?name=small', 'POST', b'x'), 200)
@@ -200,10 +200,26 @@ def project(server):
     expect('old', (answer.status, json.loads(answer.body)), (412, {'error': 'another window has changed the project'}))
     now = server.ask('api/project')
     expect('now', (now.body, now.headers['ETag']), (b'{"a":2}', second.headers['ETag']))
-    open(f'{server.folder}/room.studio.json', 'w').write('{"a":4}')
+    open(f'{server.folder}/room.pov.studio.json', 'w').write('{"a":4}')
     expect('changed on disk', put('{"a":5}', If_Match=second.headers['ETag']).status, 412)
-    expect('kept', open(f'{server.folder}/room.studio.json').read(), '{"a":4}')
+    expect('kept', open(f'{server.folder}/room.pov.studio.json').read(), '{"a":4}')
     expect('too large', put('', If_None_Match='*', Content_Length=str(5 << 20)).status, 413)
+
+
+def models(server):
+    """Each model has a project of its own, and a project says whose it is."""
+    text = {name: json.dumps({'model': name}) for name in ('room.pov', 'other.pov')}
+    open(f'{server.folder}/room.inc.pov', 'w').write(SCENE)
+    opened = lambda path: (lambda state: (state['model']['name'], state['folder'], (state.get('project') or {}).get('model')))(
+        server.json('api/open', 'POST', {'path': path}))
+    for of, wanted in (('other.pov', ('room.pov', 'room.pov.studio', None)),
+                       ('room.pov', ('room.pov', 'room.studio', 'room.pov'))):
+        open(f'{server.folder}/room.studio.json', 'w').write(text[of])
+        expect('an old project of ' + of, opened('room.pov'), wanted)
+    expect('by the project', opened('room.studio.json'), ('room.pov', 'room.studio', 'room.pov'))
+    expect('another model', opened('room.inc.pov'), ('room.inc.pov', 'room.inc.pov.studio', None))
+    open(f'{server.folder}/room.pov.studio.json', 'w').write(text['room.pov'])
+    expect('the new project', opened('room.pov'), ('room.pov', 'room.pov.studio', 'room.pov'))
 
 
 def events(server):
@@ -226,7 +242,7 @@ def events(server):
     open(f'{server.folder}/room.pov', 'a').write('// changed\n')
     expect('model', until('model')['there'], True)
     open(f'{server.folder}/new', 'w').write('{}')
-    os.rename(f'{server.folder}/new', f'{server.folder}/room.studio.json')
+    os.rename(f'{server.folder}/new', f'{server.folder}/room.pov.studio.json')
     while (etag := until('project')['etag']) == '':  # of the beginning
         pass
     expect('project', etag, server.ask('api/project').headers['ETag'])
@@ -241,16 +257,16 @@ def events(server):
 # ---- jobs ----
 
 def jobs(server):
-    job = server.wait(server.job(*RENDER, '--spp', '4', '-o', 'room.studio/sets/r.exr'))
+    job = server.wait(server.job(*RENDER, '--spp', '4', '-o', 'room.pov.studio/sets/r.exr'))
     expect('render', (job['state'], job['status'], job['progress'], job['memory'] > 1 << 20), ('done', 0, 1, True))
-    expect('the set', os.path.exists(f'{server.folder}/room.studio/sets/r.exr'), True)
+    expect('the set', os.path.exists(f'{server.folder}/room.pov.studio/sets/r.exr'), True)
     expect('small', 'Floor' in server.wait(server.job('room.pov', '--list-targets'))['stdout'], True)
     for tool in '/bin/sh', 'retex-serve', 'retex-studio', '../bin/retex-render', '':
         expect(tool, status(server, 'api/jobs', 'POST', {'tool': tool, 'args': []}), 422)
-    for output in (['-o', 'x.exr'], ['-o../x.exr'], ['--output=/tmp/x.exr'], ['--output', 'room.studio/../x.exr'],
+    for output in (['-o', 'x.exr'], ['-o../x.exr'], ['--output=/tmp/x.exr'], ['--output', 'room.pov.studio/../x.exr'],
                    ['-qo', 'x.exr']):
         expect(output, status(server, 'api/jobs', 'POST', {'tool': 'retex-render', 'args': RENDER + output}), 422)
-    outside = server.wait(server.job(*RENDER, '--spp', '1', '-o', 'room.studio/y.exr', '--stats', 'stats.json'))
+    outside = server.wait(server.job(*RENDER, '--spp', '1', '-o', 'room.pov.studio/y.exr', '--stats', 'stats.json'))
     expect('an output that only the kernel sees', (outside['state'], os.path.exists(f'{server.folder}/stats.json')),
            ('failed', False))
     expect('args', status(server, 'api/jobs', 'POST', {'tool': 'retex-info', 'args': 'x'}), 422)
@@ -260,7 +276,7 @@ def jobs(server):
 
 
 def killed(server):
-    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.studio/r.exr')
+    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.pov.studio/r.exr')
     server.wait(number, ('running',))
     time.sleep(.3)
     children = open(f'/proc/{server.process.pid}/task/{server.process.pid}/children').read().split()
@@ -273,8 +289,8 @@ def killed(server):
 def resumed(server):
     """A render that was stopped, by a window or by the server's end, has the same bits as one in one go."""
     line = ['room.pov', '--size', '320x240', '-t', 'Floor', '--spp', '64']
-    expect('whole', server.wait(server.job(*line, '-o', 'room.studio/whole.exr'))['state'], 'done')
-    line += ['--resume', '-o', 'room.studio/parts.exr']
+    expect('whole', server.wait(server.job(*line, '-o', 'room.pov.studio/whole.exr'))['state'], 'done')
+    line += ['--resume', '-o', 'room.pov.studio/parts.exr']
 
     def some_progress(number):
         while not any(job['job'] == number and job['progress'] > .1 for job in server.json('api/jobs')):
@@ -284,21 +300,21 @@ def resumed(server):
     some_progress(number)
     server.json(f'api/jobs/{number}/stop', 'POST')
     expect('stopped', server.wait(number)['state'], 'stopped')
-    partial = [name for name in os.listdir(f'{server.folder}/room.studio') if 'partial' in name]
+    partial = [name for name in os.listdir(f'{server.folder}/room.pov.studio') if 'partial' in name]
     expect('rows are kept', len(partial) > 0, True)
     server.job(*line)
     time.sleep(1)
     server.end()
     server.__init__(folder=server.folder)
     expect('resumed', server.wait(server.job(*line))['state'], 'done')
-    expect('the same', open(f'{server.folder}/room.studio/parts.exr', 'rb').read() ==
-           open(f'{server.folder}/room.studio/whole.exr', 'rb').read(), True)
+    expect('the same', open(f'{server.folder}/room.pov.studio/parts.exr', 'rb').read() ==
+           open(f'{server.folder}/room.pov.studio/whole.exr', 'rb').read(), True)
 
 
 def crashed(server):
     """The programs of a server that is killed end; it can be started again."""
     server.ask('api/project', 'PUT', '{"a":1}', If_None_Match='*')
-    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.studio/r.exr')
+    number = server.job(*RENDER, '--spp', '100000', '-o', 'room.pov.studio/r.exr')
     server.wait(number, ('running',))
     children = open(f'/proc/{server.process.pid}/task/{server.process.pid}/children').read().split()
     server.process.kill()
@@ -334,7 +350,7 @@ def idle(server):
 
 def busy(server):
     """Answers come soon while a render takes all cores."""
-    number = server.job(*RENDER, '--spp', '1000000', '-o', 'room.studio/r.exr')
+    number = server.job(*RENDER, '--spp', '1000000', '-o', 'room.pov.studio/r.exr')
     server.wait(number, ('running',))
     time.sleep(.5)
     times = []

@@ -31,8 +31,8 @@ class Server:
 
     def __init__(self, work, *arguments, model="", environment=None):
         self.work, self.arguments, self.environment = work, arguments, environment
-        self.model, stem = model, os.path.splitext(model or "room")[0]
-        self.folder, self.project_file = f"{stem}.studio", f"{work}/{stem}.studio.json"
+        self.model, name = model, model or "room.obj"
+        self.folder, self.project_file = f"{name}.studio", f"{work}/{name}.studio.json"
         address = f"{work}/.address"
         if os.path.exists(address):
             os.remove(address)

@@ -17,7 +17,7 @@ LONG = {"width": 640, "height": 360, "samples": 4096, "noise": 0, "denoise": Fal
 def begin(page, work, *arguments, text=SCENE, step="surfaces", **change):
     """A server with the small scene, whose project may have been changed, and its page in a step."""
     if change:
-        with open(f"{work}/room.studio.json", "w", encoding="utf-8") as file:
+        with open(f"{work}/room.pov.studio.json", "w", encoding="utf-8") as file:
             json.dump({"retex-studio": 1, "model": "room.pov", **change}, file)
     server = Server(work, *arguments, model=small_scene(work, text))
     page.open_studio(server, "View")

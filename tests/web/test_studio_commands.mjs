@@ -11,21 +11,21 @@ const room = { ...emptyProject("my room.glb"), view: { eye: [1, 2, 3], at: [0, 1
   targets: [{ name: "Floor", select: "#3/flat:1", uv: "planar" }, { name: "Wall", select: "Walls", uv: "" }], lamps: ["Lamp"], finishes: { Floor: ["matt", "satin"], Wall: [] } };
 
 test("a render has all that was chosen", () => {
-  same(c.nextSet(room), "my room.studio/renders/1.exr");
-  same(c.nextSet({ ...room, renders: [{ set: "my room.studio/renders/9.exr" }, { set: "x" }] }), "my room.studio/renders/10.exr");
+  same(c.nextSet(room), "my room.glb.studio/renders/1.exr");
+  same(c.nextSet({ ...room, renders: [{ set: "my room.glb.studio/renders/9.exr" }, { set: "x" }] }), "my room.glb.studio/renders/10.exr");
   same(c.renderArgs(room, "s.exr"), ["-t", "Floor=#3/flat:1:uv=planar", "-t", "Wall=Walls", "-l", "Lamp", "--finish", "Floor=matt,satin", "--camera", "1,2,3:0,1,0:65",
-    "--size", "1280x720", "--spp", "64", "--denoise", "--resume", "--progress", "json", "-o", "s.exr", "my room.studio/scene/scene.pov"]);
+    "--size", "1280x720", "--spp", "64", "--denoise", "--resume", "--progress", "json", "-o", "s.exr", "my room.glb.studio/scene/scene.pov"]);
   const plain = c.renderArgs({ ...room, model: "a.pov", view: null, render: { ...room.render, samples: 1, noise: 0.05 } }, "s.exr");
   same(plain.slice(-9), ["--spp", "1", "--noise", "0.05", "--resume", "--progress", "json", "-o", "s.exr", "a.pov"].slice(-9));
   same([plain.includes("--camera"), plain.includes("--denoise")], [false, false]);
 });
 
 test("an import has what was said, and goes into the project's folder", () => {
-  same(c.importArgs({ ...room, import: { unit: "cm", camera: "inside", done: true, lines: ["x"], partial: true } }), ["--camera", "inside", "--unit", "cm", "--partial", "--force", "-o", "my room.studio/scene", "my room.glb"]);
+  same(c.importArgs({ ...room, import: { unit: "cm", camera: "inside", done: true, lines: ["x"], partial: true } }), ["--camera", "inside", "--unit", "cm", "--partial", "--force", "-o", "my room.glb.studio/scene", "my room.glb"]);
 });
 
 test("trials and parts are of the same scene", () => {
-  same(c.trialArgs(room, 100, "t.exr").slice(-12), ["1,2,3:0,1,0:65", "--size", "100x56", "--spp", "4", "--denoise", "--stats", "-", "-q", "-o", "t.exr", "my room.studio/scene/scene.pov"]);
+  same(c.trialArgs(room, 100, "t.exr").slice(-12), ["1,2,3:0,1,0:65", "--size", "100x56", "--spp", "4", "--denoise", "--stats", "-", "-q", "-o", "t.exr", "my room.glb.studio/scene/scene.pov"]);
   const part = c.cropArgs(room, [10, 20, 30, 40], "p.png");
   same([part.includes("-l"), part.includes("--finish"), part[part.indexOf("--crop") + 1]], [false, false, "10,20,30,40"]);
 });
@@ -37,10 +37,10 @@ test("words of a shell are read by a shell as they were", () => {
 });
 
 test("the commands of a project, as they were run", () => {
-  const set = "my room.studio/renders/1.exr", done = { ...room, renders: [{ set, args: c.renderArgs(room, set), done: true }], look: "Floor=tomato" };
+  const set = "my room.glb.studio/renders/1.exr", done = { ...room, renders: [{ set, args: c.renderArgs(room, set), done: true }], look: "Floor=tomato" };
   const lines = c.commandsOf(done).map((l) => l.line);
   same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-pack", "retex-combine"]);
-  same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.studio/renders/1.exr'")], [false, false, true]);
+  same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.glb.studio/renders/1.exr'")], [false, false, true]);
   same(c.commandsOf({ ...emptyProject("x.exr") }).map((l) => l.line.split(" ")[0]), ["retex-pack", "retex-combine"]);
 });
 

@@ -109,11 +109,54 @@ static char *find_file(const char *path, RetexError *err)
     return NULL;
 }
 
+/* Name project and folder after so many bytes of the model's path. 0: no memory. */
+static int name_project(Model *model, size_t length)
+{
+    free(model->written);
+    free(model->project);
+    model->written = model->project = NULL;
+    if (asprintf(&model->written, "%.*s.studio", (int)length, model->path) < 0)
+        model->written = NULL;
+    if (asprintf(&model->project, "%.*s" PROJECT_END, (int)length, model->path) < 0)
+        model->project = NULL;
+    return model->written && model->project;
+}
+
+static int is_file(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* Whether the project that the model has by its name is there, and is of this model. */
+static int has_project(const Model *model)
+{
+    char *named = is_file(model->project) ? model_of_project(model->project, NULL) : NULL;
+    char *real = named ? realpath(named, NULL) : NULL;
+    const int is_own = real && strcmp(real, model->path) == 0;
+    free(named);
+    free(real);
+    return is_own;
+}
+
+/* `room.glb.studio.json`; but `room.studio.json`, as it was called once, where that alone is there, and of this
+ * model. */
+static int find_project(Model *model)
+{
+    const size_t whole = strlen(model->path), stem = whole - strlen(model->name);
+    const char *dot = strrchr(model->name, '.');
+    if (!name_project(model, whole))
+        return 0;
+    if (!dot || dot == model->name || access(model->project, F_OK) == 0)
+        return 1;
+    return name_project(model, stem + (size_t)(dot - model->name)) &&
+           (has_project(model) || name_project(model, whole));
+}
+
 static Model *new_model(char *path, RetexError *err)
 {
     Model *model = calloc(1, sizeof *model);
-    const char *slash = strrchr(path, '/') + 1, *dot = strrchr(slash, '.');
-    const int stem = (int)((dot && dot > slash ? dot : slash + strlen(slash)) - path);
+    const char *slash = strrchr(path, '/') + 1;
     if (!model) {
         free(path);
         no_memory(err);
@@ -122,8 +165,7 @@ static Model *new_model(char *path, RetexError *err)
     model->path = path;
     model->name = strdup(slash);
     model->folder = strndup(path, slash - path > 1 ? (size_t)(slash - path - 1) : 1);
-    if (!model->name || !model->folder || asprintf(&model->written, "%.*s.studio", stem, path) < 0 ||
-        asprintf(&model->project, "%.*s" PROJECT_END, stem, path) < 0) {
+    if (!model->name || !model->folder || !find_project(model)) {
         free_model(model);
         no_memory(err);
         return NULL;

@@ -17,8 +17,8 @@ typedef struct Model {
     char *path;    /* of the file, absolute, links resolved */
     char *name;    /* its last part */
     char *folder;  /* that it lies in */
-    char *written; /* folder `room.studio` beside it, which may not exist yet; names in messages end in it */
-    char *project; /* file `room.studio.json` beside it */
+    char *written; /* folder `room.glb.studio` beside it, which may not exist yet; names in messages end in it */
+    char *project; /* file `room.glb.studio.json` beside it */
 } Model;
 
 typedef struct Places {
@@ -38,8 +38,6 @@ const Model *places_model(Places *places);
  * without one to the current folder. */
 int places_open_model(Places *places, const char *path, RetexError *err);
 int places_add_textures(Places *places, const char *path, RetexError *err);
-/* The file that a project says it is of: its path relative to that of the project. The caller frees it. */
-
 /* What a path of a request may name. */
 typedef enum Reach {
     REACH_SHOWN,  /* what is served as it is: written files and textures */

@@ -1,6 +1,7 @@
 /* What the page knows: the project with its history, jobs, and which step is shown. It tells of changes by events:
  * "change" (anything to be drawn anew), "message". */
 import * as api from "./api.js";
+import { placeFiles } from "./commands.js";
 import { amended, changed, emptyProject, kindOf, newHistory, readProject, redone, undone, withRender } from "./project.js";
 import { errorReport, plainly } from "./words.js";
 
@@ -59,6 +60,7 @@ export class App extends EventTarget {
       return this.tell();
     }
     this.etag = "";
+    placeFiles(this.model.path, state.folder);
     let project = emptyProject(this.model.path);
     if (state.project) {
       const read = await api.getProject();

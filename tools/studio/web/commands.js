@@ -3,7 +3,10 @@ import { cameraText } from "./camera.js";
 import { lookArgs, optionText, readLook } from "./look.js";
 import { kindOf } from "./project.js";
 
-export const folderOf = (model) => `${model.replace(/^.*\//, "").replace(/\.[^.]+$/, "")}.studio`;
+/* Where what is made of a model lies, as the server says: a project of once has a folder of another name. */
+const folders = new Map();
+export const placeFiles = (model, folder) => folders.set(model, folder);
+export const folderOf = (model) => folders.get(model) || `${model.replace(/^.*\//, "")}.studio`;
 export const sceneOf = ({ model }) => (kindOf(model) === "scene" ? model : `${folderOf(model)}/scene/scene.pov`);
 const rendersOf = (model) => `${folderOf(model)}/renders`;
 
