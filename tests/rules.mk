@@ -38,6 +38,9 @@ $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SE
 $(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/%.o,serve/address serve/clients http/head serve/peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
 	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work names kept content decoding images rooms uploads)
+# And the parts of retex-studio: who may ask, command lines, files.
+$(BUILD)/tests/unit/test_studio: private TEST_LIBS += $(SERVE_LIBS)
+$(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply)
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

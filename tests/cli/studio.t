@@ -1,6 +1,7 @@
 # retex-studio: who may ask, what is read and written, projects, jobs; studio/client.py has the checks.
-$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate roots uploads thumbs
+$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate browsers roots uploads thumbs
 > gate
+> browsers
 > roots
 > uploads
 > thumbs

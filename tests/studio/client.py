@@ -11,7 +11,7 @@ sphere { <0, 1, 0>, .7 pigment { color rgb .6 } }
 
 
 class Server:
-    def __init__(self, *options, folder=None, environment=None):
+    def __init__(self, *options, folder=None, environment=None, browser=False):
         self.folder = folder or tempfile.mkdtemp(dir='.')
         if not os.path.exists(f'{self.folder}/room.pov'):
             open(f'{self.folder}/room.pov', 'w').write(SCENE)
@@ -20,8 +20,8 @@ class Server:
         if os.path.exists(address):
             os.remove(address)
         self.process = subprocess.Popen(
-            ['retex-studio', 'room.pov', '--no-browser', '-o', 'address', *options], cwd=self.folder,
-            env={**os.environ, 'HOME': os.path.abspath(self.folder) + '/home', **(environment or {})},
+            ['retex-studio', 'room.pov', *([] if browser else ['--no-browser']), '-o', 'address', *options],
+            cwd=self.folder, env={**os.environ, 'HOME': os.path.abspath(self.folder) + '/home', **(environment or {})},
             stderr=open(f'{self.folder}/log', 'w'))
         for _ in range(1000):
             if os.path.exists(address):
@@ -96,6 +96,31 @@ def gate(server):
             expect('hosts', raw.recv(12)[9:], b'400')
     expect('another method', status(server, 'api/state', 'POST'), 405)
     expect('another address', status(server, 'api/nothing'), 404)
+
+
+def browsers(server):
+    """The browser gets a page that leads to the address, which no other user can read; where there is a display."""
+    top = os.path.abspath(server.folder)
+    os.makedirs(top + '/bin')
+    with open(top + '/bin/xdg-open', 'w') as script:
+        script.write('#!/bin/sh\n(echo "$# $1"; stat -c %a "$1"; cat "$1") >seen.part\nmv seen.part seen\n')
+    os.chmod(top + '/bin/xdg-open', 0o755)
+    environment = {'PATH': f'{top}/bin:{os.environ["PATH"]}', 'XDG_RUNTIME_DIR': top, 'WAYLAND_DISPLAY': ''}
+    for display, browser in ('', True), (':7', False), (':7', True):
+        server.end()
+        server.__init__(folder=server.folder, environment={**environment, 'DISPLAY': display}, browser=browser)
+        for _ in range(50 if not (display and browser) else 1000):
+            if os.path.exists(top + '/seen'):
+                break
+            time.sleep(.01)
+        expect('a browser', os.path.exists(top + '/seen'), bool(display and browser))
+    words, mode, page = open(top + '/seen').read().split('\n', 2)
+    page_file = f'{top}/retex-studio-{server.process.pid}.html'
+    expect('its words', words, f'1 {page_file}')
+    expect('its mode', mode, '600')
+    expect('its page', f'url=http://127.0.0.1:{server.port}/{server.token}/"' in page, True)
+    quits(server)
+    expect('its page at the end', os.path.exists(page_file), False)
 
 
 # ---- files ----

@@ -28,6 +28,12 @@ static int write_page(const char *path, const char *address)
     return fclose(file) == 0;
 }
 
+static int is_set(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value;
+}
+
 void browser_open(const char *address, char **file)
 {
     const char *folder = getenv("XDG_RUNTIME_DIR");
@@ -35,9 +41,9 @@ void browser_open(const char *address, char **file)
     sigset_t none;
     pid_t child;
     *file = NULL;
-    if (!getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY"))
+    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         return;
-    if (asprintf(file, "%s/retex-studio-%d.html", folder && *folder ? folder : "/tmp", (int)getpid()) < 0) {
+    if (asprintf(file, "%s/retex-studio-%d.html", is_set("XDG_RUNTIME_DIR") ? folder : "/tmp", (int)getpid()) < 0) {
         *file = NULL;
         return;
     }

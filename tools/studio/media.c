@@ -2,6 +2,7 @@
 #include "media.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -42,30 +43,40 @@ const char *media_type(const char *name, int is_own)
     return "application/octet-stream";
 }
 
-/* The part that a header asks for: `bytes=FIRST-LAST`, `FIRST-` or `-COUNT`. 1: a part; 0: the whole, also where
- * several are asked for; below 0: there is no such part. */
-static int find_range(const char *header, off_t size, off_t *first, off_t *count)
+/* The digits at *at, which is moved behind them; too many are the largest number. 0: there are none. */
+static int read_number(const char **at, unsigned long long *number)
 {
+    char *end;
+    if (**at < '0' || **at > '9')
+        return 0;
+    *number = strtoull(*at, &end, 10);
+    *at = end;
+    return 1;
+}
+
+int media_range(const char *header, off_t size, off_t *first, off_t *count)
+{
+    const unsigned long long all = (unsigned long long)size;
     unsigned long long a = 0, b = 0;
-    char more;
     *first = 0;
     *count = size;
-    if (!header || strncmp(header, "bytes=", 6) != 0 || strchr(header, ','))
+    if (!header || strncmp(header, "bytes=", 6) != 0)
         return 0;
     header += 6;
-    if (*header == '-' && sscanf(header, "-%llu%c", &b, &more) == 1) {
-        *count = b < (unsigned long long)size ? (off_t)b : size;
+    const int has_first = read_number(&header, &a), is_range = *header == '-';
+    header += is_range;
+    const int has_last = is_range && read_number(&header, &b);
+    if (!is_range || *header || !(has_first || has_last) || (has_first && has_last && b < a))
+        return 0;
+    if (!has_first) {
+        *count = b < all ? (off_t)b : size;
         *first = size - *count;
         return *count > 0 ? 1 : -1;
     }
-    const int read = sscanf(header, "%llu-%llu%c", &a, &b, &more);
-    if (*header < '0' || *header > '9' || (read != 2 && !(read == 1 && header[strlen(header) - 1] == '-')) ||
-        (read == 2 && b < a))
-        return 0;
-    if (a >= (unsigned long long)size)
+    if (a >= all)
         return -1;
     *first = (off_t)a;
-    *count = read == 2 && b < (unsigned long long)size ? (off_t)(b - a) + 1 : size - *first;
+    *count = has_last && b < all ? (off_t)(b - a) + 1 : size - *first;
     return 1;
 }
 
@@ -92,7 +103,7 @@ Reply media_file(const Request *request, int descriptor, const char *type)
     const char *seen = request_header(request, "If-None-Match"), *range_if = request_header(request, "If-Range");
     const int is_seen = seen && strcmp(seen, etag) == 0;
     const char *range = !range_if || strcmp(range_if, etag) == 0 ? request_header(request, "Range") : NULL;
-    const int part = find_range(range, info.st_size, &first, &count);
+    const int part = media_range(range, info.st_size, &first, &count);
     if (is_seen || part < 0)
         close(descriptor);
     if (part < 0 && !is_seen)
