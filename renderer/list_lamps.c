@@ -85,8 +85,8 @@ static int list_resolved(Arguments *a, Scene *scene, int rest, RetexError *err)
 static int list_each(Arguments *a, Scene *scene, RetexError *err)
 {
     const char *const *specs;
-    int count,
-        code = scene_each_lamp(scene, sky_shines(scene) || !rgb_is_black(scene->background), &specs, &count, err);
+    const int has_sky = sky_shines(scene) || !rgb_is_black(scene->background);
+    int count, code = scene_each_lamp(scene, has_sky, 1, &specs, &count, err);
     const int too_many = code == RETEX_ELIMIT;
     code = too_many ? RETEX_OK : code;
     for (int first = 0; first < count && !code; first += LAMPS_MAX) {
@@ -95,7 +95,7 @@ static int list_each(Arguments *a, Scene *scene, RetexError *err)
             code = list_resolved(a, scene, !too_many, err);
     }
     if (!count)
-        cli_info(a->cli, "no light source, nothing that shines and has a name, and no sky");
+        cli_info(a->cli, "no light source, nothing that shines, and no sky");
     return code;
 }
 

@@ -174,7 +174,7 @@ int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *
     const char *named[LAMPS_MAX], *const *specs = names->lamps;
     int count = names->nlamps, code = RETEX_OK;
     if (names->each_lamp)
-        code = scene_each_lamp(scene, sky_shines(scene) || !rgb_is_black(scene->background), &specs, &count, err);
+        code = scene_each_lamp(scene, sky_shines(scene) || !rgb_is_black(scene->background), 0, &specs, &count, err);
     if (code || count > LAMPS_MAX)
         return code ? code : scene_resolve_lamps(scene, specs, count, err);
     code = name_pixels(scene, render, specs, count, SCOPE_OBJECT, named, err);

@@ -458,6 +458,22 @@ static void add_each_named(EachLamp *each, const IdentList *idents)
         add_each(each, idents->name);
 }
 
+static int is_same_name(void *name, const char *other)
+{
+    return strcasecmp(name, other) == 0;
+}
+
+/* By a name that is made of a kind and a number, and that nothing in the scene has: LAMP_NAME=SELECTOR. */
+static void add_each_unnamed(EachLamp *each, const char *kind, int number, const char *selector)
+{
+    char name[RETEX_NAME_MAX], text[RETEX_NAME_MAX + SELECTOR_MAX];
+    size_t length = (size_t)snprintf(name, sizeof name, "%s%d", kind, number);
+    while (length + 1 < sizeof name && visit_all_names(each->scene, is_same_name, name))
+        name[length++] = '_', name[length] = 0;
+    snprintf(text, sizeof text, "%s=%s", name, selector);
+    add_each(each, text);
+}
+
 static int is_listed(void *each, const char *name)
 {
     const EachLamp *list = each;
@@ -517,35 +533,52 @@ static const IdentList *texture_names(const Texture *texture)
     return NULL;
 }
 
-int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int *nspecs, RetexError *err)
+static void add_each_light(EachLamp *each, int number)
 {
-    EachLamp *each = arena_alloc(scene->arena, sizeof *each);
+    const IdentList *names = each->scene->lights[number - 1].idents;
+    char selector[64];
+    snprintf(selector, sizeof selector, SOURCE "%d", number);
+    if (!names)
+        add_each_unnamed(each, "light", number, selector);
+    else if (!visit_names(names, is_listed, each))
+        add_each_named(each, names);
+}
+
+static const IdentList *primitive_names(const Primitive *p)
+{
+    const IdentList *names = p->idents;
     const Texture *texture;
     int target;
-    char text[64];
+    for (int i = 0; !names && (texture = primitive_texture(p, i, &target)); i++)
+        names = texture_names(texture);
+    return names;
+}
+
+int scene_each_lamp(Scene *scene, int sky_shines, int unnamed, const char *const **specs, int *nspecs, RetexError *err)
+{
+    EachLamp *each = arena_alloc(scene->arena, sizeof *each);
+    char selector[SELECTOR_MAX];
     if (!each)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the lamps");
     *each = (EachLamp){.scene = scene};
-    for (int k = 0; k < scene->nlights; k++) {
-        snprintf(text, sizeof text, "light%d=" SOURCE "%d", k + 1, k + 1);
-        if (!scene->lights[k].idents)
-            add_each(each, text);
-        else if (!visit_names(scene->lights[k].idents, is_listed, each))
-            add_each_named(each, scene->lights[k].idents);
-    }
+    for (int k = 0; k < scene->nlights; k++)
+        add_each_light(each, k + 1);
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        const IdentList *names = p->prototype ? NULL : p->idents;
-        for (int i = 0; !p->prototype && !names && (texture = primitive_texture(p, i, &target)); i++)
-            names = texture_names(texture);
-        if (primitive_shines(p) && !has_primitive(each, p))
-            add_each_named(each, names);
+        if (!p->prototype && primitive_shines(p) && !has_primitive(each, p))
+            add_each_named(each, primitive_names(p));
     }
     for (int k = 0; k < scene->ninstances; k++)
         if (instance_shines(scene, &scene->instances[k]) && !has_instance(each, &scene->instances[k]))
             add_each_named(each, scene->instances[k].idents);
     if (sky_shines)
         add_each(each, SKY);
+    for (int k = 0; k < scene->nprimitives && unnamed; k++) {
+        const Primitive *p = &scene->primitives[k];
+        const ObjectPart object = object_part(scene, p, 0);
+        if (!p->prototype && primitive_shines(p) && !primitive_names(p) && selector_of_object(selector, &object))
+            add_each_unnamed(each, "object", k + 1, selector);
+    }
     *specs = each->specs, *nspecs = each->count;
     if (each->failed)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the lamps");

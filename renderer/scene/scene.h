@@ -754,9 +754,10 @@ int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, Re
 /* Each of one -l of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see scene/lamps.c. Without any, all light is
  * of lamp 0, and there is nothing to keep apart. */
 int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
-/* The specs of --lamps each: every light source and every emitter that has a name, and the sky, if it shines. They are
- * in the scene's arena. RETEX_ELIMIT, with all of them, where there are more than LAMPS_MAX. */
-int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int *nspecs, RetexError *err);
+/* The specs of --lamps each: every light source and every emitter that has a name, and the sky, if it shines; unnamed:
+ * 1: then emitting objects without a name. They are in the scene's arena. RETEX_ELIMIT, with the first of them, where
+ * there are more than LAMPS_MAX. */
+int scene_each_lamp(Scene *scene, int sky_shines, int unnamed, const char *const **specs, int *nspecs, RetexError *err);
 /* Give a lamp another value, in the picture and in what sets say of it. is_kept: its light is kept apart, so that
  * lights are chosen as before; else by what it is now. */
 void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept);

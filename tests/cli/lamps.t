@@ -90,5 +90,18 @@ $ for s in cornell-box glass-caustics kitchen living-room; do retex-render -q --
 > Garden  rgb(2.8,3.1,3.2)
 > Lamp  several colours
 
+# What stands after the share is what -l takes, also of what has no name, and where another has the name of its number.
+$ printf '%s\n' 'camera { location <0,1,-4> look_at <0,.6,0> angle 40 } sky_sphere { pigment { rgb .3 } } light_source { <1,3,-2> rgb 2 } light_source { <-1,3,-2> rgb <1,.5,.2> spotlight point_at 0 } #declare Sun = light_source { <0,5,0> rgb .3 } light_source { Sun }' 'plane { y, 0 pigment { rgb .8 } } mesh { triangle { <-1,2,-2>, <1,2,-2>, <1,2,0> } pigment { rgb 1 } finish { emission 3 diffuse 0 } } union { sphere { <1,1,0>, .1 } sphere { <1.3,1,0>, .1 } pigment { rgb 1 } finish { emission 4 } }' '#declare light2 = texture { pigment { rgb 1 } finish { emission 1 } } box { <-1,0,0>, <-.8,.2,.2> texture { light2 } } #declare Sky = sphere { <-1.4,1,0>, .1 pigment { rgb <1,.5,.2> } finish { emission 4 } } object { Sky }' >stranger.pov
+$ retex-render -q --size 32x24 --list-lamps stranger.pov | sed 's/^[ 0-9.]*%  //' >list; cat list; sed 's/  .*//; /^rest$/d' list >specs; retex-render -q --size 32x24 --list-lamps $(sed 's/^/-l /' specs) stranger.pov | sed 's/^[ 0-9.]*%  //' | cmp - list; retex-render -q --size 8x6 --spp 1 --lamps each stranger.pov -o x.exr
+> light1=light_source#1  rgb(2,2,2)
+> light2_=light_source#2  rgb(1,0.214,0.0331)
+> Sun  rgb(0.0732,0.0732,0.0732)
+> light2  rgb(1,1,1)
+> Sky  rgb(25.3,5.42,0.838)
+> object2=#2  rgb(12.8,12.8,12.8)
+> object3=#3  rgb(25.3,25.3,25.3)
+> object4=#4  rgb(25.3,25.3,25.3)
+> rest  all other light
+
 # In parts, stopped and gone on with, and as frames: the same bits.
 $ scene=$TESTS/../../docs/suns.pov; render() { retex-render -q --size 32x24 --spp 2 -t Floor --lamps each "$@"; }; render $scene -o whole.exr; for i in 1 2; do render --shard $i/2 $scene -o part$i; done; render --merge part1 --merge part2 $scene -o merged.exr; cmp whole.exr merged.exr; render --max-time 0.0001 --resume $scene -o again.exr 2>/dev/null; render --resume $scene -o again.exr; cmp whole.exr again.exr; render --frames 1-2 $scene -o f-%d.exr; retex-combine -q f-%d.exr --frames 1-2 --solo Sun_16 -o p-%d.exr; retex-combine -q whole.exr --solo Sun_16 -o p.exr; retex-diff -q p-1.exr p.exr; retex-diff -q p-2.exr p.exr; rm whole.exr merged.exr again.exr f-*.exr p*.exr part*

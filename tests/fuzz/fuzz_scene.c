@@ -29,7 +29,7 @@ static void render(Scene *scene)
         scene_resolve_targets(scene, &scene->idents[0], 1, NULL);
     const char *const *lamps = NULL;
     int nlamps = 0;
-    if (!scene_each_lamp(scene, 1, &lamps, &nlamps, NULL))
+    if (!scene_each_lamp(scene, 1, 1, &lamps, &nlamps, NULL))
         scene_resolve_lamps(scene, lamps, nlamps, NULL);
     if (render_scene(&set, scene, &params, &stats, NULL) == 0)
         for (int i = 0; i < 4 * 3 * 3; i++)

@@ -168,22 +168,34 @@ static void test_each_lamp(void **state)
     const char *const *specs;
     int count;
     Scene *scene = parse(LAMPS);
-    assert_int_equal(scene_each_lamp(scene, 1, &specs, &count, NULL), 0);
+    assert_int_equal(scene_each_lamp(scene, 1, 0, &specs, &count, NULL), 0);
     assert_int_equal(count, 7);
     for (int k = 0; k < 7; k++)
         assert_string_equal(specs[k], names[k]);
-    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), 0);
+    assert_int_equal(scene_each_lamp(scene, 0, 0, &specs, &count, NULL), 0);
     assert_int_equal(count, 6);
     scene_close(&scene);
     /* What a lamp has by one of its names needs no other: every lamp gets something. */
     scene = parse(V37 "#declare T = texture{pigment{rgb 1} finish{emission 1}} #declare A = sphere{0,1 texture{T}}"
                       "#declare B = object{A} #declare C = box{0,1 texture{T}} object{A} object{B} object{C}"
                       "box{0,1 texture{T}} union{light_source{x 1} object{B}}");
-    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), 0);
+    assert_int_equal(scene_each_lamp(scene, 0, 0, &specs, &count, NULL), 0);
     assert_int_equal(scene_resolve_lamps(scene, specs, count, NULL), 0);
     scene_close(&scene);
+    /* Without a name, objects are lamps where that is asked for; light sources always, by a name that is free. */
+    scene = parse(V37 "#declare light1 = texture{pigment{rgb 1} finish{emission 1}} light_source{x 1}"
+                      "sphere{0,1 pigment{rgb 1} finish{emission 1}} box{0,1 texture{light1}} box{2,3}");
+    for (int unnamed = 0; unnamed < 2; unnamed++) {
+        static const char *const all[] = {"light1_=light_source#1", "light1", "object1=#1"};
+        assert_int_equal(scene_each_lamp(scene, 0, unnamed, &specs, &count, NULL), 0);
+        assert_int_equal(count, 2 + unnamed);
+        for (int k = 0; k < count; k++)
+            assert_string_equal(specs[k], all[k]);
+        assert_int_equal(scene_resolve_lamps(scene, specs, count, NULL), 0);
+    }
+    scene_close(&scene);
     scene = parse(V37 "#for (K, 1, 17) light_source{K*y 1} #end");
-    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), RETEX_ELIMIT);
+    assert_int_equal(scene_each_lamp(scene, 0, 0, &specs, &count, NULL), RETEX_ELIMIT);
     scene_close(&scene);
 }
 
