@@ -1,12 +1,12 @@
 /* What a person must know, and can do something about, above the picture: the server is gone, the model has changed. */
-import { shellLine } from "./commands.js";
+import { folderOf, shellLine } from "./commands.js";
 import { button, download, h, icon, ICONS } from "./dom.js";
 import { importAgain } from "./step_open.js";
 
 const restart = ({ model }) => shellLine("retex", ["studio", ...(model ? [`${model.folder}/${model.name}`] : [])]);
 
 /* The project as a file, for when there is nobody to save it. */
-const keep = (app) => download(`${app.model.name.replace(/\.[^.]+$/, "")}.studio.json`, JSON.stringify(app.project, null, 1));
+const keep = (app) => download(`${folderOf(app.model.path)}.json`, JSON.stringify(app.project, null, 1));
 
 function lost(app) {
   const isUnsaved = app.model && app.saved !== "saved";
