@@ -1,5 +1,5 @@
 /* The kinds of camera there are. A new kind is a line here, a row of operations (camera/camera.h) and its keyword in
- * sdl/build/camera.c. */
+ * sdl/camera/camera.c. */
 #ifndef RENDERER_CAMERA_CAMERAS_H
 #define RENDERER_CAMERA_CAMERAS_H
 

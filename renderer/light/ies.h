@@ -1,5 +1,5 @@
 /* Light distributions of luminaires: what a file of IES LM-63, photometric type C, says of luminous intensity by
- * direction. sdl/build/ies.c reads such files; here is what they mean.
+ * direction. sdl/object/ies.c reads such files; here is what they mean.
  *
  * Angles are degrees. The vertical angle is 0 along the luminaire's axis, which is straight down as it hangs, and 180
  * opposite to it; the horizontal angle goes round the axis, counterclockwise as it is seen from above a luminaire that

@@ -5,12 +5,12 @@
 #include "base/noise.h"
 #include "pattern/patterns.h"
 
-/* What stands between the keyword and the list of colours; sdl/build/pattern.c reads it. */
+/* What stands between the keyword and the list of colours; sdl/texture/pattern.c reads it. */
 typedef enum PatternArguments {
     ARGUMENTS_NONE,
     ARGUMENTS_FLOAT,  /* Pattern.number */
     ARGUMENTS_VECTOR, /* Pattern.vector, a direction of any length */
-    /* Pattern.data, which sdl/build/pattern_data.c makes */
+    /* Pattern.data, which sdl/texture/pattern_data.c makes */
     ARGUMENTS_BRICK, /* nothing, but mortar and brick_size may follow: Pattern.number, Pattern.vector */
     ARGUMENTS_DENSITY_FILE,
     ARGUMENTS_FRACTAL,

@@ -1,4 +1,4 @@
-#include "sdl/build/build.h"
+#include "sdl/statements.h"
 #include "sdl/lang/parser.h"
 #include "sdl/sdl.h"
 

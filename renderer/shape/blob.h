@@ -1,4 +1,4 @@
-/* What a blob is made of, as sdl/build/blob.c leaves it in Shape.data. */
+/* What a blob is made of, as sdl/object/blob.c leaves it in Shape.data. */
 #ifndef RENDERER_SHAPE_BLOB_H
 #define RENDERER_SHAPE_BLOB_H
 

@@ -1,4 +1,4 @@
-/* What a height field is made of, as sdl/build/height_field.c leaves it in Shape.data. */
+/* What a height field is made of, as sdl/object/height_field.c leaves it in Shape.data. */
 #ifndef RENDERER_SHAPE_HEIGHT_FIELD_H
 #define RENDERER_SHAPE_HEIGHT_FIELD_H
 

@@ -1,4 +1,4 @@
-/* What a julia_fractal is made of, as sdl/build/julia_fractal.c leaves it in Shape.data. */
+/* What a julia_fractal is made of, as sdl/object/julia_fractal.c leaves it in Shape.data. */
 #ifndef RENDERER_SHAPE_JULIA_FRACTAL_H
 #define RENDERER_SHAPE_JULIA_FRACTAL_H
 

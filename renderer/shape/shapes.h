@@ -1,5 +1,5 @@
 /* The shapes there are. A new shape is a line here, a file NAME.c with its row of operations (shape/shape.h), and its
- * parser parse_NAME in sdl/build. */
+ * parser parse_NAME in sdl/object. */
 #ifndef RENDERER_SHAPE_SHAPES_H
 #define RENDERER_SHAPE_SHAPES_H
 

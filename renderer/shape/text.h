@@ -1,4 +1,4 @@
-/* What a letter of text is made of, as sdl/build/text.c leaves it in Shape.data. */
+/* What a letter of text is made of, as sdl/object/text.c leaves it in Shape.data. */
 #ifndef RENDERER_SHAPE_TEXT_H
 #define RENDERER_SHAPE_TEXT_H
 

@@ -80,8 +80,9 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7
     11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
-back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light 7:sdl/build \
-    8:sdl 7:film 8:film/footprints 8:film/paper 9:path 10:render 11:job)
+back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light \
+    7:sdl/state 8:sdl/texture 9:sdl/medium 10:sdl/object 11:sdl/camera 12:sdl/place 13:sdl \
+    7:film 8:film/footprints 8:film/paper 9:path 14:render 15:job)
 [ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
 $back"
 

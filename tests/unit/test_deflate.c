@@ -166,8 +166,8 @@ static void test_is_short(void **state)
     }
 }
 
-/* zlib decompresses what the library compressed, with any effort: the same bytes each time, never more than there is room
- * for. */
+/* zlib decompresses what the library compressed, with any effort: the same bytes each time, never more than there is
+ * room for. */
 static void test_compresses(void **state)
 {
     (void)state;
@@ -193,7 +193,8 @@ static void test_compresses(void **state)
         assert_int_equal(retex_zlib_compress(&other, again, room, bytes, count), packed);
         assert_memory_equal(first, again, packed);
         const size_t fitted = retex_zlib_compress(&other, tight, packed, bytes, count);
-        assert_true(fitted == 0 || fitted == packed || (zlib.effort && fitted < packed)); /* that may choose otherwise */
+        assert_true(fitted == 0 || fitted == packed ||
+                    (zlib.effort && fitted < packed)); /* that may choose otherwise */
         back_bytes = sizeof back;
         assert_int_equal(fitted ? uncompress(back, &back_bytes, tight, fitted) : Z_OK, Z_OK);
         assert_memory_equal(back, bytes, count);
@@ -258,9 +259,15 @@ static int slow = 0, quick = 1;
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comes_back),   cmocka_unit_test(test_pieces),    cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_little_room),  cmocka_unit_test(test_is_short),  COMPRESSES(0), COMPRESSES(1),
-        cmocka_unit_test(test_decompresses), cmocka_unit_test(test_checksums),
+        cmocka_unit_test(test_comes_back),
+        cmocka_unit_test(test_pieces),
+        cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_little_room),
+        cmocka_unit_test(test_is_short),
+        COMPRESSES(0),
+        COMPRESSES(1),
+        cmocka_unit_test(test_decompresses),
+        cmocka_unit_test(test_checksums),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

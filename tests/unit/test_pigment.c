@@ -297,7 +297,7 @@ static void bakes(void **state)
 static void rows_are_whole(void **state)
 {
     (void)state;
-    assert_true(pattern_count() <= 64); /* Gaps of sdl/build */
+    assert_true(pattern_count() <= 64); /* Gaps of sdl/state/builder.h */
     assert_int_equal(pattern_find("checkers"), -1);
     for (int i = 0; i < pattern_count(); i++) {
         const PatternOps *ops = pattern_at(i);

@@ -1,6 +1,6 @@
-/* The interface of the language for the builder (sdl/build): the token stream with its directives, expressions and
- * values. The builder parses objects, textures and other statements by these calls. The language calls the builder
- * through SdlBuilder.
+/* The interface of the language for the builder, the rooms beside this one: the token stream with its directives,
+ * expressions and values. The builder parses objects, textures and other statements by these calls. The language calls
+ * the builder through SdlBuilder.
  *
  * A parse error does not return: sdl_error fills the error and jumps back to sdl_read. All memory is from the
  * scene's arena. */

@@ -151,9 +151,8 @@ static void choose_compression(EncodeWork *work, int nthreads)
 
     retex_parallel(nthreads, encoding->nbands, look_job, work);
     for (int i = 0; i < encoding->nparts; i++)
-        encoding->pxr24[i] = encoding->parts[i].stored
-                                 ? encoding->parts[i].stored->pxr24
-                                 : encoding->compress && encoding->parts[i].type == RETEX_FLOAT;
+        encoding->pxr24[i] = encoding->parts[i].stored ? encoding->parts[i].stored->pxr24
+                                                       : encoding->compress && encoding->parts[i].type == RETEX_FLOAT;
     for (int i = 0; i < encoding->nbands; i++)
         if (encoding->bands[i].wide)
             encoding->pxr24[encoding->bands[i].part] = 0;
@@ -271,8 +270,7 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
     for (int i = 0; work.scratch && i < nthreads; i++)
-        work.scratch[i].zip.zlib.effort =
-            encoding->compress == RETEX_EXR_QUICKLY ? RETEX_ZLIB_HURRY : RETEX_ZLIB_SMALL;
+        work.scratch[i].zip.zlib.effort = encoding->compress == RETEX_EXR_QUICKLY ? RETEX_ZLIB_HURRY : RETEX_ZLIB_SMALL;
     if (work.scratch && work.failed) {
         choose_compression(&work, nthreads);
         retex_parallel(nthreads, encoding->nbands, encode_job, &work);
@@ -292,8 +290,8 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
 }
 
-static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, int nparts,
-                         RetexExrCompression compress, RetexError *err)
+static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, int nparts, RetexExrCompression compress,
+                         RetexError *err)
 {
     *result = NULL;
     RetexExrEncoding *encoding = calloc(1, sizeof *encoding);

@@ -13,8 +13,9 @@
  * 5 % in ten times. */
 enum { ZLIB_LEVEL = 3, ZLIB_LEVEL_MOST = 12 };
 
-/* Level 0 has one fixed table of Huffman codes. Levels 1 and 2 are faster than 3, but their output depends on the address
- * of their memory: the same picture would not always make the same file. Blocks of level 3 are of 16384 codes, so that the Huffman codes follow the data. */
+/* Level 0 has one fixed table of Huffman codes. Levels 1 and 2 are faster than 3, but their output depends on the
+ * address of their memory: the same picture would not always make the same file. Blocks of level 3 are of
+ * 16384 codes, so that the Huffman codes follow the data. */
 enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
 
 typedef struct Deflater {
