@@ -209,6 +209,12 @@ fidelity-rooms: all
 figures: all
 	@BUILD=$(BUILD) PAGES='$(PAGES)' FIGURES='$(FIGURES)' tests/figures/run.sh
 
+# The pictures of docs/studio.md and the recording of README.md, by a walk through the page in Chromium.
+.PHONY: figures-studio
+figures-studio: all
+	@tools/setup.sh web
+	PATH="$(abspath $(BUILD)/bin):$$PATH" /usr/bin/python3 -B tests/studio/shots.py docs/pictures
+
 # How another method fares: DIR holds its pictures SCENE-TEXTURE.png; the truths are the fidelity run's.
 .PHONY: compare-external
 compare-external: all

@@ -83,6 +83,12 @@ class Server:
             total += int(fields[11]) + int(fields[12])
         return total
 
+    def processor_seconds(self):
+        """Of the server, of the tools that it runs, and of those that have ended."""
+        with open(f"/proc/{self.process.pid}/stat", encoding="utf-8") as file:
+            ended = sum(map(int, file.read().rpartition(")")[2].split()[13:15]))
+        return (self.ticks() + ended) / os.sysconf("SC_CLK_TCK")
+
     def close(self):
         if self in self.running:
             self.running.remove(self)

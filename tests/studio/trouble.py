@@ -273,6 +273,18 @@ def changed_model(page, work):
     server.close()
 
 
+def opened_model(page, work):
+    """A model that was opened from the page has not changed."""
+    small_scene(work)
+    server = Server(work)
+    page.open_studio(server)
+    page.go(".browser button.row[aria-label^='room.pov']")
+    page.wait("document.querySelector('#picture.shown')")
+    time.sleep(1)
+    result(page.run("document.querySelector('#bar').hidden"), "a model that was just opened is not said to have changed")
+    server.close()
+
+
 # ---- much of it ----
 
 def many_surfaces(page, work):
@@ -299,7 +311,7 @@ def many_surfaces(page, work):
 
 def main():
     each([wrong_files, wrong_picture, full_disk, full_render, memory_limit, closed_tab, second_window, killed_tool, killed_server,
-          quit_studio, changed_model, many_surfaces])
+          quit_studio, changed_model, opened_model, many_surfaces])
     finish()
 
 

@@ -81,9 +81,9 @@ test("a look without a target keeps those whose names begin alike", () => {
 });
 
 test("what an import tells, in plain words", () => {
-  const lines = ["retex-import: the room is 260 units high: they are taken as centimetres, and become metres; --unit overrides", "retex-import: there is no image `wood.png'",
-    "retex-import: something new", "retex-import: wrote x/x.pov", ""];
-  same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["Something new", false]]);
+  const lines = ["retex-import: the room is 260 units high: they are taken as centimetres, and become metres; --unit overrides", "retex-import: there is no image `wood.png`",
+    "retex-import: warning: the image `Oak_0-1` cannot be read: no PNG", "retex-import: something new", "retex-import: wrote x/x.pov", ""];
+  same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["The picture “Oak_0-1” cannot be read. Sa", true], ["Something new", false]]);
   same([isLoss(["retex-import: images are lost; --partial makes the scene without them"]), isLoss(lines)], [true, false]);
 });
 

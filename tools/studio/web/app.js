@@ -53,6 +53,7 @@ export class App extends EventTarget {
   async load() {
     const state = await api.getState();
     this.state = state;
+    if (state.model?.path !== this.model?.path) this.modelChanged = false;
     this.model = state.model || null;
     this.conflict = false;
     if (!this.model) {
@@ -190,7 +191,8 @@ export class App extends EventTarget {
         if (this.saved === "saved" && !this.conflict) this.attempt(() => this.load()).then(() => this.say("Another window has changed the project; here it is."));
         else this.meetConflict();
       },
-      model: () => {
+      model: ({ changed }) => {
+        if (!this.model || changed === this.model.changed) return; // of the model that is being opened
         this.modelChanged = true;
         this.tell();
       },

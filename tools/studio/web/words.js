@@ -15,14 +15,14 @@ const IMPORT = [
   [/soft sky lights it/, "The file has no light: a soft sky lights it."],
   [/lie on others of the same corners/, "Some faces were there twice; one of each is kept."],
   [/are? where the same one is/, "Some objects were there twice; one of each is kept."],
-  [/^there is no image [`'](.*)'/, "The picture “$1” is missing. Put it beside the model and open the model again, or go on without it.", true],
-  [/^the image [`'](.*)' cannot be read/, "The picture “$1” cannot be read. Save it as PNG or JPEG, or go on without it.", true],
+  [/^there is no image [`'](.*?)[`']/, "The picture “$1” is missing. Put it beside the model and open the model again, or go on without it.", true],
+  [/^the image [`'](.*?)[`'] cannot be read/, "The picture “$1” cannot be read. Save it as PNG or JPEG, or go on without it.", true],
   [/^(\d+) more images? lost/, "$1 more pictures are missing.", true],
-  [/^the variant [`'](.*)' needs a scene of its own/, "The variant “$1” changes more than colours: choose it under Variant to have it."],
+  [/^the variant [`'](.*?)[`'] needs a scene of its own/, "The variant “$1” changes more than colours: choose it under Variant to have it."],
   [/^(\d+) variants?, from one render/, "The file has $1 variants that can be chosen after rendering."],
   [/^the extension (.*) is left out/, "The file uses “$1”, which is left out. The picture may look a little different."],
   [/^the lights of this format have no unit/, "The lights had no brightness that can be told: they were made bright enough."],
-  [/^(\d+) materials?, \d+ mesh(?:es)?, (\d+) objects?, (\d+) triangles?/, "$1 materials, $2 objects, $3 triangles."],
+  [/^(\d+ materials?), \d+ mesh(?:es)?, (\d+ objects?), (\d+ triangles?)/, "$1, $2, $3."],
 ];
 
 const ERRORS = [
