@@ -25,13 +25,13 @@ KEYS = {"Tab": 9, "Enter": 13, "Escape": 27, " ": 32, "ArrowLeft": 37, "ArrowUp"
 
 
 class Server:
-    """A retex-studio in a folder, which is its home; with a model, or without one."""
+    """A retex-studio in a folder, which is its home; with a model, or without one, and then what will be opened."""
 
     running = []
 
-    def __init__(self, work, *arguments, model="", environment=None):
+    def __init__(self, work, *arguments, model="", opened="room.obj", environment=None):
         self.work, self.arguments, self.environment = work, arguments, environment
-        self.model, name = model, model or "room.obj"
+        self.model, name = model, model or opened
         self.folder, self.project_file = f"{name}.studio", f"{work}/{name}.studio.json"
         address = f"{work}/.address"
         if os.path.exists(address):

@@ -152,7 +152,7 @@ def main():
                     shutil.copytree(os.path.dirname(found), work, dirs_exist_ok=True)
                 else:
                     shutil.copy(found, work)
-                server = Server(work, "--textures", f"{TOP}/scenes/textures")
+                server = Server(work, "--textures", f"{TOP}/scenes/textures", opened=os.path.basename(found))
                 try:
                     walk_room(page, server, name, os.path.basename(found), ((floor, wall), scope))
                 except SystemExit as error:

@@ -14,8 +14,9 @@ from drive import TOP, Server, Studio
 
 SIZE, SAMPLES = os.environ.get("STUDIO_SIZE", "1280x720"), int(os.environ.get("STUDIO_SPP", "64"))
 WIDE = "960x600"  # of the recording's frames
-FLOOR, WALL = (0.45, 0.9), (0.9, 0.3)  # places of the picture
+FLOOR, WALL = (0.1, 0.92), (0.62, 0.2)  # places of the picture
 LONG, SHORT = 1800, 700  # milliseconds
+CLEAR = 40  # seconds that a preview may take to be without grain
 
 POINTER = """(() => { let e = document.querySelector('#pointer'); if (!e) { e = document.createElement('div'); e.id = 'pointer';
   Object.assign(e.style, { position: 'fixed', zIndex: 99, width: '26px', height: '26px', margin: '-13px', borderRadius: '16px',
@@ -104,7 +105,7 @@ def animation(frames, width, height):
 def clear(page):
     """Wait for a preview without grain, but not for ever."""
     page.wait("document.querySelector('#picture.shown')", 300)
-    page.until("document.querySelector('#picture-note').textContent === ''", 120)
+    page.until("document.querySelector('#picture-note').textContent === ''", CLEAR)
 
 
 def walk(page, server):
@@ -122,7 +123,7 @@ def walk(page, server):
         page.frame(SHORT)
     page.step("surfaces")
     page.go("#next-button")
-    page.wait("document.querySelector('#finish-0-0') && !document.querySelector('.spinner')", 300)
+    page.wait("document.querySelector('#finish-0-0') && !document.querySelector('#panel-body .spinner')", 300)
     page.step("light")
     page.go("#next-button")
     page.go("#next-button")
@@ -156,7 +157,7 @@ def main(out):
             place = f"{TOP}/scenes/living-room/{name}"
             (shutil.copytree if os.path.isdir(place) else shutil.copy)(place, f"{work}/home/{name}")
         width, height = map(int, SIZE.split("x"))
-        with open(f"{work}/home/living-room.studio.json", "w", encoding="utf-8") as file:
+        with open(f"{work}/home/living-room.pov.studio.json", "w", encoding="utf-8") as file:
             json.dump({"retex-studio": 1, "model": "living-room.pov", "render": {
                 "width": width, "height": height, "samples": SAMPLES, "noise": 0, "denoise": True}}, file)
         server = Server(f"{work}/home", "--textures", f"{TOP}/scenes/textures")

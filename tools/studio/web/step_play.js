@@ -31,9 +31,11 @@ export const takeFiles = (app, files, target) => app.attempt(async () => {
   await putPicture(app, paths[0], target);
 });
 
+/* The folder that was chosen last, whatever comes first. */
 async function browse(app, path) {
-  app.pictures = await api.getFolder(path);
   app.pictureFolder = path;
+  const pictures = await api.getFolder(path);
+  if (app.pictureFolder === path) app.pictures = pictures;
   app.tell();
 }
 

@@ -102,7 +102,7 @@ function told(app) {
 function forecast(app) {
   const expected = told(app), least = app.project.render.noise > 0 ? "at most " : expected?.seconds >= 1 ? "about " : "";
   return h("div", { class: "forecast" },
-    expected ? h("dl", {}, h("dt", {}, "Time"), h("dd", {}, least + durationText(expected.seconds)), h("dt", {}, "Memory"), h("dd", {}, bytesText(expected.memory)), h("dt", {}, "On the disk"), h("dd", {}, bytesText(expected.bytes))) : null,
+    expected ? h("dl", {}, h("dt", {}, "Time"), h("dd", {}, (expected.seconds < 1 ? "" : least) + durationText(expected.seconds)), h("dt", {}, "Memory"), h("dd", {}, bytesText(expected.memory)), h("dt", {}, "On the disk"), h("dd", {}, bytesText(expected.bytes))) : null,
     h("div", { class: "buttons" },
       button(app.known.guessing ? "Trying out…" : "How long will it take?", () => guess(app), { id: "guess", disabled: !!app.known.guessing })));
 }
