@@ -77,8 +77,8 @@ def denoised():
     want = oiio.ImageBuf(render('--plain', '--spp', '32', '--denoise=preview', scene)).get_pixels(oiio.FLOAT)
     print(clean[-1] < 1.5 * mean_square(want, converged) or (clean[-1], mean_square(want, converged)))
     live.view(800, 600, '-', 2)
-    live.send('denoise', 'stop')
-    print(live.is_quiet(.5), live.end())
+    live.send('denoise', 'look')
+    print(live.answer()[0], live.end())
 
 
 def surfaces():

@@ -13,7 +13,7 @@ $ /usr/bin/python3 -B "$TESTS/live.py" denoised
 > True True
 > [2, 8, 32] True
 > True
-> True (0, b'')
+> {'error': 'there is no request `look`', 'bytes': 0} (0, b'')
 $ /usr/bin/python3 -B "$TESTS/live.py" surfaces
 > material #5  True True
 > material #1 Floor True True

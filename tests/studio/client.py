@@ -234,7 +234,8 @@ def project(server):
 def models(server):
     """Each model has a project of its own, and a project says whose it is."""
     text = {name: json.dumps({'model': name}) for name in ('room.pov', 'other.pov')}
-    open(f'{server.folder}/room.inc.pov', 'w').write(SCENE)
+    for name in 'room.inc.pov', 'other.pov':
+        open(f'{server.folder}/{name}', 'w').write(SCENE)
     opened = lambda path: (lambda state: (state['model']['name'], state['folder'], (state.get('project') or {}).get('model')))(
         server.json('api/open', 'POST', {'path': path}))
     for of, wanted in (('other.pov', ('room.pov', 'room.pov.studio', None)),
