@@ -21,7 +21,7 @@ export function chooseFolder(title, what, names) {
         const found = await api.getFolder(to), count = found.entries.filter((e) => e.kind === what).length;
         at = found.path;
         path.textContent = found.path || "The model's folder";
-        about.textContent = count ? `${count} ${names} here.` : `No ${names} here; those in its folders count as well.`;
+        about.textContent = count ? `${count} ${count === 1 ? what : names} here.` : `No ${names} here; those in its folders count as well.`;
         refill(list, found.parent === null ? null : h("li", {}, button("One folder up", () => go(found.parent), { class: "row", id: "folder-up" }, "undo")),
           found.entries.filter((e) => e.kind === "folder").map((e, k) => h("li", {}, button(e.name, () => go(e.path), { class: "row", id: `folder-${k}` }, "folder"))));
       } catch (error) {

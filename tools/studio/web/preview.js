@@ -100,6 +100,7 @@ export class Preview extends EventTarget {
         if (signal.aborted) return;
         this.key = "";
         this.note("");
+        if (this.app.ended) return;
         if (error.status === 0) return void this.app.meetLoss(0);
         this.app.say(`The preview has stopped. ${plainly(error.message)}`, "error", { label: "Start it again", run: () => this.start() });
         return;
@@ -161,6 +162,7 @@ export class Preview extends EventTarget {
   async view(widest, samples) {
     const [w, h] = this.size(widest);
     this.isSmooth = false;
+    if (samples === SAMPLES) this.viewed = w;
     await this.send(`view ${w} ${h} ${this.text} ${samples}`);
   }
 
@@ -192,6 +194,7 @@ export class Preview extends EventTarget {
   /* Planes first, since they end a view. */
   async settle() {
     if (!this.live || this.app.paused) return;
+    if (!this.canvas.clientWidth) await new Promise(requestAnimationFrame); // the step before did not show it
     this.isMoving = false;
     const text = (this.shownText = this.text);
     if (this.wants.surfaces && this.surfaces?.text !== text) await this.readPlanes("surfaces", text);
@@ -301,7 +304,10 @@ export class Preview extends EventTarget {
     canvas.addEventListener("keydown", (event) => this.onKey(event));
     canvas.addEventListener("keyup", (event) => this.pressed.delete(event.key.length === 1 ? event.key.toLowerCase() : event.key));
     canvas.addEventListener("blur", () => this.pressed.clear());
-    new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
+    new ResizeObserver(() => {
+      this.fit();
+      if (this.live && !this.isMoving && this.size(WIDEST)[0] > 1.2 * this.viewed) this.settle().catch(() => 0);
+    }).observe(canvas.parentElement);
   }
 
   onKey(event) {
