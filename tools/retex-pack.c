@@ -25,6 +25,7 @@ static const CliOption options[] = {
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
     {"web-lamps", 0, "N", "lamps that visitors can change; default 4, the dimmest others join `rest`", 0},
+    {"web-smaller", 0, "N,...", "rooms beside it, 2, 3, 4, 6 or 8 times smaller, for small screens", 0},
     {0},
 };
 
@@ -33,10 +34,24 @@ typedef struct Job {
     int unpack, quality_given, no_lamps;
     int level;       /* 0: not given */
     int web_lamps;   /* 0: not given */
+    int web_smaller[RETEX_WEB_SMALLER];
     uint64_t memory; /* bytes */
     int threads;
     const char *input, *stats, *web;
 } Job;
+
+/* Scales, divided by commas. */
+static void parse_smaller(Cli *cli, Job *job)
+{
+    int count = 0;
+    for (const char *at = cli->value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        const int scale = *at - '0';
+        if (!memchr("23468", *at, 5) || (at[1] && at[1] != ',') || count == RETEX_WEB_SMALLER)
+            cli_die(cli, "--web-smaller: expected up to %d of 2, 3, 4, 6 and 8, divided by commas, not '%s'",
+                    RETEX_WEB_SMALLER, cli->value);
+        job->web_smaller[count++] = scale;
+    }
+}
 
 static void parse(Cli *cli, Job *job)
 {
@@ -66,6 +81,8 @@ static void parse(Cli *cli, Job *job)
             job->web = cli->value;
         } else if (strcmp(option->name, "web-lamps") == 0) {
             job->web_lamps = (int)cli_integer(cli, option, 1, RETEX_PARAMETERS_MAX);
+        } else if (strcmp(option->name, "web-smaller") == 0) {
+            parse_smaller(cli, job);
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_size(cli, option);
         } else {
@@ -92,6 +109,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless, --levels nor --stats");
     if (job->web_lamps && (!job->web || job->no_lamps))
         cli_die(cli, "--web-lamps is of --web, and of sets that keep their lamps");
+    if (*job->web_smaller && !job->web)
+        cli_die(cli, "--web-smaller is of --web");
     job->threads = cli->threads;
     job->params.warn = cli_warn_text;
     job->params.warn_context = cli;
@@ -224,14 +243,14 @@ static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 /* A folder for browsers: the player, and the set as it reads it. The manifest comes last, so an older room stays whole,
  * at most with a newer player, until the new one is. */
 typedef struct Notes {
-    char text[2][2400];
+    char text[2 + RETEX_WEB_SMALLER][2400];
     int count;
 } Notes;
 
 static void keep_note(void *context, const char *text)
 {
     Notes *notes = context;
-    if (notes->count < 2)
+    if (notes->count < 2 + RETEX_WEB_SMALLER)
         snprintf(notes->text[notes->count++], sizeof notes->text[0], "%s", text);
 }
 
@@ -245,6 +264,7 @@ static int run_web(Cli *cli, const Job *job)
     char manifest[PATH_MAX];
     params.quality = job->quality_given ? job->params.quality : params.quality;
     params.lamps = job->web_lamps ? job->web_lamps : params.lamps;
+    memcpy(params.smaller, job->web_smaller, sizeof params.smaller);
     params.note = keep_note;
     params.note_context = &notes;
     if (snprintf(manifest, sizeof manifest, "%s/room.json", job->web) >= (int)sizeof manifest - RETEX_NAME_MAX)
@@ -286,7 +306,7 @@ int main(int argc, char **argv)
         .argc = argc,
         .argv = argv,
         .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
-                 "       retex-pack SET [--quality 1..100] [--web-lamps N] --web DIR\n"
+                 "       retex-pack SET [--quality 1..100] [--web-lamps N] [--web-smaller N,...] --web DIR\n"
                  "       retex-pack --unpack FILE.retex -o SET.exr",
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "

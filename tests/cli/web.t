@@ -134,6 +134,30 @@ $ cp -r out/room kept; retex-pack -q s.exr --quality 50 --web out/room; for f in
 > retex-pack: error: cannot write kept/dep_Wall_sharp
 > kept
 
+# Smaller rooms beside it: what they are, their pictures against the whole one, averaged, and the same bytes for any number of threads. Another
+# room without them leaves none behind, and one that fails leaves those that were there.
+$ retex-pack s.exr --web many --web-smaller 2,3 2>&1 | tee said | sed -n '3,$s/[0-9]\{3,\}/N/gp'; /usr/bin/python3 "$TESTS/../web/files.py" many <said
+> retex-pack: smaller room, 48x27: N bytes, N until the picture, N until the first target
+> retex-pack: smaller room, 32x18: N bytes, N until the picture, N until the first target
+> README.md index.html package.json retex-room.d.ts retex-room.js room.json
+$ cp -r many half; cp half/$(grep -o '"file":"room-[^"]*' half/room.json | sed 's/.*"//; q') half/room.json; for t in 0.8,0.8,0.8 T/brick.jpg:scale=2,2; do case $t in *:*) o="--texture:${t#*:} Floor=${t%%:*}";; *) o="--texture Floor=rgb($t)";; esac; retex-combine -q s.exr $o --size 48x27 -o a.exr; /usr/bin/python3 reference.py half b.exr Floor=$t; retex-diff -q a.exr b.exr --fail-psnr 40; done
+$ retex-pack -q s.exr --web again --web-smaller 2,3 --threads 1; diff -r many again && echo same
+> same
+$ cp -r many both; retex-pack -q s.exr --web many; retex-pack -q s.exr --web fresh; diff -r many fresh && echo none
+> none
+$ for f in again/dep_Wall_sharp-*; do rm both/${f##*/}; mkdir both/${f##*/}; done; find both -type f | sort | xargs md5sum >before; retex-pack -q s.exr --web both --web-smaller 4 2>&1 | sed 's/-[0-9a-f]*[.]jpg.*//'; find both -type f | sort | xargs md5sum | cmp - before && echo kept
+> retex-pack: error: cannot write both/dep_Wall_sharp
+> kept
+$ retex-pack s.exr --web w --web-smaller 5
+! retex-pack: error: --web-smaller: expected up to 4 of 2, 3, 4, 6 and 8, divided by commas, not '5'
+= 2
+$ retex-pack s.exr -o w.retex --web-smaller 2
+! retex-pack: error: --web-smaller is of --web
+= 2
+$ retex-pack s.retex --web w --web-smaller 2; test -e w || echo nothing
+> nothing
+! retex-pack: error: the set cannot be reduced: its images have several sizes, as those of packs have
+
 # What is refused, without leaving anything.
 $ make_set other.exr 64 48; retex-pack other.exr --web other
 ! retex-pack: error: this set cannot be written for browsers: its layout is not footprints

@@ -7,6 +7,7 @@ import { withEvents } from "./events.js";
 import { withLighting } from "./lighting.js";
 import { withLoading } from "./loading.js";
 import { BODY, STYLE } from "./page.js";
+import { withSizes } from "./sizes.js";
 import { withState } from "./state.js";
 import { withTextures } from "./textures.js";
 import { withView } from "./view.js";
@@ -15,7 +16,7 @@ import { withView } from "./view.js";
 
 /* What it does is in parts, each of which adds to the class before it. Servers that render pages import the script too, and
  * have no elements. */
-const PARTS = [withTextures, withLighting, withState, withLoading, withView, withControls, withEvents];
+const PARTS = [withTextures, withLighting, withState, withSizes, withLoading, withView, withControls, withEvents];
 
 export class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), globalThis.HTMLElement || Object) {
   static observedAttributes = ["src"];
@@ -32,25 +33,28 @@ export class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), 
     this.finishes = [];
     this.zoom = { times: 1, x: 0, y: 0 };
     this.selected = 0;
-    this.loading = 0;
     this.listen(root);
     this.$("[data-do=full]").hidden = !document.fullscreenEnabled;
     this.restore = this.restore.bind(this);
+    this.growWhole = this.growWhole.bind(this);
   }
 
   connectedCallback() {
     addEventListener("hashchange", this.restore);
+    addEventListener("beforeprint", this.growWhole);
     this.togglePanel(this.getAttribute("panel") !== "closed");
     if (!this.started && this.hasAttribute("src")) this.load();
   }
 
   disconnectedCallback() {
     removeEventListener("hashchange", this.restore);
+    removeEventListener("beforeprint", this.growWhole);
     this.abort?.abort();
     this.started = false;
   }
 
   attributeChangedCallback() {
+    this.wholeWanted = this.largest = undefined;
     if (this.isConnected) this.load();
   }
 
@@ -65,7 +69,8 @@ export class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), 
   }
 
   /* The picture in the room's own size. */
-  toBlob(type = "image/png", quality) {
+  async toBlob(type = "image/png", quality) {
+    await this.growWhole();
     this.draw(true);
     return new Promise((resolve) => this.$("canvas").toBlob(resolve, type, quality));
   }

@@ -7,19 +7,34 @@ import { Renderer, checkManifest, isRelit } from "./renderer.js";
 
 const NO_WEBGL = "This browser cannot change textures: it has no WebGL 2. The picture is as it was rendered.";
 
+function readManifest(text) {
+  try {
+    const room = JSON.parse(text);
+    checkManifest(room);
+    return room;
+  } catch (error) {
+    throw error instanceof TypeError || error instanceof SyntaxError ? new Error("room.json is damaged.") : error;
+  }
+}
+
 /* How an element loads its room. */
 export const withLoading = (Base) => class extends Base {
-  /* kept: textures that come back with the room, after the graphics card was lost. */
-  async load(kept) {
+  /* kept: textures that come back with the room, after the graphics card was lost, or with a larger room; instead: what
+   * is done if that does not come. */
+  async load(kept, instead) {
     this.started = true;
-    this.abort?.abort();
-    const abort = (this.abort = new AbortController());
-    this.renderer = this.room = this.lampsComing = null;
-    this.textures = [];
+    if (!kept || !this.isComplete) this.abort?.abort(); // else pictures may be on the way, which are wanted
+    const abort = (this.abort = new AbortController()), canvas = this.$("canvas");
+    this.before = kept && this.renderer ? canvas.toDataURL("image/jpeg", 0.9) : "";
+    canvas.classList.remove("shown");
+    this.renderer = this.lampsComing = null;
+    this.isComplete = false;
+    if (!kept) this.room = null, this.textures = [];
     this.$(".room").classList.remove("empty");
     this.fail(null);
     this.whenComplete = this.run(abort.signal, kept).catch((error) => {
-      if (!abort.signal.aborted) this.fail(error.message);
+      if (abort.signal.aborted) return undefined;
+      return instead ? instead() && this.complete : this.fail(error.message);
     });
   }
 
@@ -28,25 +43,19 @@ export const withLoading = (Base) => class extends Base {
     const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache").catch((error) => {
       throw error.status ? new Error(`There is no room in ${base.href}: ${error.message}`) : error;
     }));
-    let room;
-    try {
-      room = JSON.parse(text);
-    } catch {
-      throw new Error("room.json is damaged.");
-    }
-    try {
-      checkManifest(room);
-    } catch (error) {
-      throw error instanceof TypeError ? new Error("room.json is damaged.") : error;
-    }
+    let room = readManifest(text);
+    if (signal.aborted) return;
+    this.setRooms(room);
+    const chosen = this.pickRoom();
+    if (chosen !== room) room = readManifest(new TextDecoder().decode(await fetchChecked(base, chosen, signal)));
     if (signal.aborted) return;
     this.room = room;
-    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: {} }));
+    this.textures = room.targets.map((_, i) => Object.assign(kept?.[i] || plainTexture(), { put: {} }));
     if (!kept) this.said = lampsOf(room).map(() => null), this.finishes = finishesAsRendered(room);
     this.recolor();
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
-    this.$(".view").style.setProperty("--ratio", room.width / room.height);
-    this.refresh();
+    this.$(".view").style.setProperty("--ratio", this.rooms.at(-1).width / this.rooms.at(-1).height);
+    if (!kept) this.refresh();
     this.progress = { done: 0, all: [room.picture, room.reduced, ...room.lights, ...room.classes].reduce((n, f) => n + (f?.bytes || 0), 0) };
     const get = async (entry) => {
       const bytes = await fetchChecked(base, entry, signal);
@@ -57,7 +66,7 @@ export const withLoading = (Base) => class extends Base {
     const still = await decodeJpeg(await get(room.picture), room.picture.file);
     if (still.naturalWidth !== room.width || still.naturalHeight !== room.height) throw new Error(`${room.picture.file} is damaged.`);
     const shown = this.$("img");
-    shown.src = new URL(room.picture.file, base).href;
+    shown.src = this.before || new URL(room.picture.file, base).href;
     shown.hidden = false;
     this.emit("retex-still", {});
     try {
@@ -101,8 +110,10 @@ export const withLoading = (Base) => class extends Base {
       this.draw(true);
     }
     this.$(".bar").hidden = true;
+    this.isComplete = true;
     this.emit("retex-complete", {});
     this.say("All is loaded.");
+    this.grow();
   }
 
   /* The first target can be changed. */

@@ -38,6 +38,7 @@ export function checkManifest(room) {
   if (room.unit !== undefined) number(room.unit, 1e-30);
   check([1, 2, 4, 8].includes(room.finest));
   file(room.picture);
+  list(room.smaller ?? [], 4, (s) => (file(s), whole(s.width, 1, room.width - 1), whole(s.height, 1, room.height)));
   list(room.targets, 8, (t) => {
     check(typeof t.name === "string");
     number(t.share);

@@ -26,6 +26,7 @@ export const withView = (Base) => class extends Base {
     view.style.transform = times > 1 ? `translate(${this.zoom.x}px, ${this.zoom.y}px) scale(${times})` : "";
     this.$(".stage").classList.toggle("zoomed", times > 1);
     this.moveLine();
+    this.grow();
   }
 
   /* The target that is seen at a place of the window, or -1. */

@@ -1,25 +1,22 @@
-/* See retex/web.h. All files are encoded in memory, then written, the manifest last. */
+/* See retex/web.h. All files are encoded in memory, then written by folder.c, the manifest last. */
 #include <retex/web.h>
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include <retex/output_file.h>
+#include <retex/reduce.h>
 
 #include "base/params.h"
 #include "compact/compact.h"
-#include "io/checksum.h"
 #include "pack/plan.h"
 #include "set/set.h"
+#include "web/folder.h"
 #include "web/footprints.h"
 #include "web/lamps.h"
 #include "web/light.h"
 
-#define MANIFEST "room.json"
 /* Compacting aims above the whole by so many decibels, as for packs. */
 static const double COMPACTING_MARGIN = 3;
 /* Pictures by one lamp, which are looked at alone, may lose so many decibels more: with 7 less, a lamp of the living
@@ -29,19 +26,9 @@ static const double LAMP_LOSS = 4;
  * that are too large. */
 static const int SCALES[] = {0, 4, 8};
 
-/* A name has the checksum of the content: new files never replace those of an older manifest, and caches may keep
- * them. */
-typedef struct File {
-    char name[RETEX_NAME_MAX + 16];
-    unsigned char *data;
-    size_t bytes;
-    uint32_t crc;
-    int is_old; /* a file of this name was there before */
-} File;
-
 /* Images that are smaller than the picture, in one file. */
 typedef struct Atlas {
-    File file;
+    RetexWebFile file;
     RetexWebTile *tiles;
     int ntiles, width, height;
 } Atlas;
@@ -50,7 +37,7 @@ typedef struct Web {
     RetexSet *set; /* compact */
     RetexPackPart *packed;
     RetexWebModel model;
-    File picture, *lights, *streams; /* streams by class, the others by number */
+    RetexWebFile picture, *lights, *streams; /* streams by class, the others by number */
     int *light_parts, nlights;
     RetexPackCurve *curves; /* of lights */
     Atlas reduced, lamps;
@@ -146,17 +133,11 @@ static int is_sharp_light(const Web *web, int part)
     return 1;
 }
 
-static void give_name(File *file, const char *stem, const char *ending)
-{
-    file->crc = retex_crc32(CRC32_OF_NONE, file->data, file->bytes);
-    snprintf(file->name, sizeof file->name, "%s-%08x.%s", stem, file->crc, ending);
-}
-
-static void take_jpeg(File *file, RetexPackJpeg *jpeg, const char *name)
+static void take_jpeg(RetexWebFile *file, RetexPackJpeg *jpeg, const char *name)
 {
     file->data = jpeg->data;
     file->bytes = jpeg->bytes;
-    give_name(file, name, "jpg");
+    retex_web_file_name(file, name, "jpg");
     jpeg->data = NULL;
     retex_pack_jpeg_free(jpeg);
 }
@@ -210,10 +191,10 @@ static int encode(Web *web, RetexError *err)
         code = encode_atlas(web, &web->lamps, "lamps", err);
     for (int i = 0; i < web->model.nclasses && !code; i++) {
         const RetexWebClass *c = &web->model.classes[i];
-        File *file = &web->streams[i];
+        RetexWebFile *file = &web->streams[i];
         code = retex_web_footprints_encode(&file->data, &file->bytes, set, web->packed, c, err);
         if (!code)
-            give_name(file, set->parts[set->footprints[c->footprints[0]].uv].name, "bin");
+            retex_web_file_name(file, set->parts[set->footprints[c->footprints[0]].uv].name, "bin");
     }
     return code;
 }
@@ -285,7 +266,7 @@ static int web_open(Web *web, const RetexSet *set, const RetexWebParams *params,
 
 /* ---- the manifest ---- */
 
-static json_t *describe_file(const File *file)
+static json_t *describe_file(const RetexWebFile *file)
 {
     return json_pack("{s:s,s:I,s:I}", "file", file->name, "bytes", (json_int_t)file->bytes, "crc32",
                      (json_int_t)file->crc);
@@ -524,7 +505,7 @@ static json_t *describe_lamps(const Web *web)
     return object;
 }
 
-static char *describe(const Web *web, RetexError *err)
+static char *describe(const Web *web, const json_t *smaller, RetexError *err)
 {
     const RetexSet *set = web->set;
     char id[16];
@@ -543,6 +524,8 @@ static char *describe(const Web *web, RetexError *err)
         retex_json_put(&object, "lamps", describe_lamps(web));
     if (object)
         describe_terms(&object, web);
+    if (json_array_size(smaller))
+        retex_json_put(&object, "smaller", json_deep_copy(smaller));
     char *json = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
     if (!json)
@@ -552,28 +535,7 @@ static char *describe(const Web *web, RetexError *err)
 
 /* ---- the folder ---- */
 
-static int path_of(char path[PATH_MAX], const char *folder, const char *name)
-{
-    return snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX;
-}
-
-static int write_file(const char *folder, File *file, RetexError *err)
-{
-    char path[PATH_MAX];
-    if (!path_of(path, folder, file->name))
-        return retex_fail(err, RETEX_EINVAL, "the name of the folder is too long");
-    file->is_old = access(path, F_OK) == 0;
-    return retex_file_write(path, file->data, file->bytes, err);
-}
-
-static void remove_file(const char *folder, const char *name)
-{
-    char path[PATH_MAX];
-    if (path_of(path, folder, name))
-        unlink(path);
-}
-
-static File *file_at(Web *web, int index)
+static RetexWebFile *file_at(Web *web, int index)
 {
     if (index < 1 + web->nlights)
         return index ? &web->lights[index - 1] : &web->picture;
@@ -586,47 +548,6 @@ static File *file_at(Web *web, int index)
 static int count_files(const Web *web)
 {
     return 1 + web->nlights + web->model.nclasses + (web->reduced.ntiles > 0) + (web->lamps.ntiles > 0);
-}
-
-/* Remove a file that an older manifest names, unless it is one of the new ones. */
-static void remove_old(Web *web, const char *folder, const json_t *entry)
-{
-    const char *name = json_string_value(json_object_get(entry, "file"));
-    for (int i = 0; name && i < count_files(web); i++)
-        if (strcmp(name, file_at(web, i)->name) == 0)
-            return;
-    if (name && !strchr(name, '/') && strchr(name, '-'))
-        remove_file(folder, name);
-}
-
-static void remove_all_old(Web *web, const char *folder, const json_t *old)
-{
-    static const char *const lists[] = {"lights", "classes"};
-    remove_old(web, folder, json_object_get(old, "picture"));
-    remove_old(web, folder, json_object_get(old, "reduced"));
-    remove_old(web, folder, json_object_get(old, "lamps"));
-    for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < json_array_size(json_object_get(old, lists[k])); i++)
-            remove_old(web, folder, json_array_get(json_object_get(old, lists[k]), i));
-}
-
-/* Until the new manifest replaces an older one, that one and its files stay whole. */
-static int write_all(Web *web, const char *folder, File *manifest, RetexError *err)
-{
-    char path[PATH_MAX];
-    json_t *old = path_of(path, folder, MANIFEST) ? json_load_file(path, 0, NULL) : NULL;
-    int code = 0, written = 0;
-    for (; written < count_files(web) && !code; written += !code)
-        code = write_file(folder, file_at(web, written), err);
-    if (!code)
-        code = write_file(folder, manifest, err);
-    for (int i = 0; code && i < written; i++)
-        if (!file_at(web, i)->is_old)
-            remove_file(folder, file_at(web, i)->name);
-    if (!code)
-        remove_all_old(web, folder, old);
-    json_decref(old);
-    return code;
 }
 
 /* Whether the picture as rendered needs the light of single lamps: one is off in it, or finishes are kept apart. */
@@ -700,34 +621,126 @@ static void tell_lamps(const Web *web, const RetexWebParams *params)
     }
 }
 
+/* ---- rooms ---- */
+
+/* A room and those beside it that are smaller. */
+typedef struct Rooms {
+    Web webs[RETEX_WEB_SMALLER + 1]; /* the whole one first */
+    RetexWebFile manifests[RETEX_WEB_SMALLER + 1];
+    int count;
+} Rooms;
+
+static void close_rooms(Rooms *rooms)
+{
+    for (int i = 0; i < rooms->count; i++) {
+        free(rooms->manifests[i].data);
+        web_close(&rooms->webs[i]);
+    }
+}
+
+/* Encode all of a room. smaller: what its manifest says of others; NULL = it is one of those. */
+static int make_room(Web *web, RetexWebFile *manifest, const RetexSet *set, const RetexWebParams *params,
+                     const json_t *smaller, int nthreads, RetexError *err)
+{
+    int code = RETEX_EUNSUPPORTED;
+    for (size_t i = 0; i < sizeof SCALES / sizeof *SCALES && code == RETEX_EUNSUPPORTED; i++) {
+        web_close(web);
+        code = web_open(web, set, params, SCALES[i], nthreads, err);
+    }
+    if (code)
+        return code;
+    manifest->data = (unsigned char *)describe(web, smaller, err);
+    if (!manifest->data)
+        return RETEX_ENOMEM;
+    manifest->bytes = strlen((char *)manifest->data);
+    if (!smaller)
+        retex_web_file_name(manifest, "room", "json");
+    return RETEX_OK;
+}
+
+/* A smaller room, which the list of them gets. */
+static int add_smaller(Rooms *rooms, json_t *list, const RetexSet *set, const RetexWebParams *params, int scale,
+                       int nthreads, RetexError *err)
+{
+    const int i = rooms->count++;
+    RetexSet *reduced = NULL;
+    RetexWebParams plain = *params;
+    plain.note = NULL;
+    int code = retex_set_reduce(&reduced, set, scale, nthreads, err);
+    if (!code)
+        code = make_room(&rooms->webs[i], &rooms->manifests[i], reduced, &plain, NULL, nthreads, err);
+    if (!code) {
+        json_t *entry = describe_file(&rooms->manifests[i]);
+        retex_json_put(&entry, "width", json_integer(reduced->width));
+        retex_json_put(&entry, "height", json_integer(reduced->height));
+        code = json_array_append_new(list, entry) ? no_memory(err) : RETEX_OK;
+    }
+    retex_set_close(&reduced);
+    return code;
+}
+
+static void tell_room(const RetexWebParams *params, const Web *web, const RetexWebFile *manifest)
+{
+    char note[256];
+    const RetexWebBytes bytes = count_bytes(web, manifest->bytes);
+    snprintf(note, sizeof note, "smaller room, %dx%d: %zu bytes, %zu until the picture, %zu until the first target",
+             web->set->width, web->set->height, bytes.all, bytes.still, bytes.first);
+    if (params->note)
+        params->note(params->note_context, note);
+}
+
+static int write_rooms(Rooms *rooms, const char *folder, RetexError *err)
+{
+    int count = 0, total = 0;
+    for (int i = 0; i < rooms->count; i++)
+        total += count_files(&rooms->webs[i]) + 1;
+    RetexWebFile **files = malloc((size_t)total * sizeof *files);
+    if (!files)
+        return no_memory(err);
+    for (int i = 0; i < rooms->count; i++) {
+        for (int k = 0; k < count_files(&rooms->webs[i]); k++)
+            files[count++] = file_at(&rooms->webs[i], k);
+        if (i)
+            files[count++] = &rooms->manifests[i];
+    }
+    const int code = retex_web_folder_write(folder, files, count, &rooms->manifests[0], err);
+    free(files);
+    return code;
+}
+
+static int check(const RetexWebParams *params, RetexError *err)
+{
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    if (params->lamps < 1 || params->lamps > RETEX_PARAMETERS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "a page has 1 to %d lamps, not %d", RETEX_PARAMETERS_MAX, params->lamps);
+    return RETEX_OK;
+}
+
 int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParams *params, RetexWebBytes *bytes,
                     int nthreads, RetexError *err)
 {
     RetexWebParams own = RETEX_WEB_INIT;
-    Web web = {0};
+    Rooms rooms = {.count = 1};
     if (RETEX_PARAMS_COPY(&own, params, err))
         return RETEX_EINVAL;
-    if (own.quality < 1 || own.quality > 100)
-        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", own.quality);
-    if (own.lamps < 1 || own.lamps > RETEX_PARAMETERS_MAX)
-        return retex_fail(err, RETEX_EINVAL, "a page has 1 to %d lamps, not %d", RETEX_PARAMETERS_MAX, own.lamps);
-    int code = RETEX_EUNSUPPORTED;
-    for (size_t i = 0; i < sizeof SCALES / sizeof *SCALES && code == RETEX_EUNSUPPORTED; i++) {
-        web_close(&web);
-        code = web_open(&web, set, &own, SCALES[i], nthreads, err);
-    }
-    File manifest = {.name = MANIFEST};
-    if (!code && !(manifest.data = (unsigned char *)describe(&web, err)))
-        code = RETEX_ENOMEM;
-    if (!code) {
-        manifest.bytes = strlen((char *)manifest.data);
-        code = write_all(&web, folder, &manifest, err);
-    }
-    if (!code && bytes)
-        *bytes = count_bytes(&web, manifest.bytes);
+    int code = check(&own, err);
+    if (code)
+        return code;
+    json_t *smaller = json_array();
+    for (int k = 0; !code && k < RETEX_WEB_SMALLER && own.smaller[k]; k++)
+        code = add_smaller(&rooms, smaller, set, &own, own.smaller[k], nthreads, err);
     if (!code)
-        tell_lamps(&web, &own);
-    free(manifest.data);
-    web_close(&web);
+        code = make_room(&rooms.webs[0], &rooms.manifests[0], set, &own, smaller, nthreads, err);
+    if (!code)
+        code = write_rooms(&rooms, folder, err);
+    if (!code && bytes)
+        *bytes = count_bytes(&rooms.webs[0], rooms.manifests[0].bytes);
+    if (!code)
+        tell_lamps(&rooms.webs[0], &own);
+    for (int i = 1; i < rooms.count && !code; i++)
+        tell_room(&own, &rooms.webs[i], &rooms.manifests[i]);
+    json_decref(smaller);
+    close_rooms(&rooms);
     return code;
 }

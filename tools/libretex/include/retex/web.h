@@ -12,6 +12,7 @@ extern "C" {
 #endif
 
 #define RETEX_WEB_VERSION 1
+#define RETEX_WEB_SMALLER 4
 
 /* Begin with RETEX_WEB_INIT. */
 typedef struct RetexWebParams {
@@ -20,10 +21,12 @@ typedef struct RetexWebParams {
     int lamps;   /* 1..RETEX_PARAMETERS_MAX, default 4: most lamps that visitors can change, `rest` not counted; the
                     light of the dimmest others is added to that of `rest` */
     RetexWarn *note; /* told, in the calling thread, which lamps there are, what their file takes, and which of them
-                        joined `rest`; default NULL = nobody */
+                        joined `rest`; and what each smaller room takes; default NULL = nobody */
     void *note_context;
+    int smaller[RETEX_WEB_SMALLER]; /* 2, 3, 4, 6 or 8, then 0: rooms beside it that are so many times smaller, as of
+                                       retex_set_reduce, which browsers take for small screens; default none */
 } RetexWebParams;
-#define RETEX_WEB_INIT { sizeof(RetexWebParams), 60, 4, NULL, NULL }
+#define RETEX_WEB_INIT { sizeof(RetexWebParams), 60, 4, NULL, NULL, {0} }
 
 /* What the files take, in bytes. */
 typedef struct RetexWebBytes {
