@@ -1,7 +1,7 @@
 /* retex studio's projects: what is read, steps that are undone, surfaces and finishes; and the widths of textures, by
  * names as people write them. */
 import { fails, same, test } from "./tap.mjs";
-import { amended, changed, emptyProject, finishTrouble, freeName, kindOf, newHistory, readProject, redone, redoLabel, undoLabel, undone, withoutTarget, withRenamed, withRender, withTarget } from "../../tools/studio/web/project.js";
+import { amended, changed, emptyProject, finishTrouble, freeName, kindOf, lampLabel, newHistory, readProject, redone, redoLabel, undoLabel, undone, withoutTarget, withRenamed, withRender, withTarget } from "../../tools/studio/web/project.js";
 import { guessWidth, widthOf } from "../../tools/studio/web/widths.js";
 
 const project = (change = {}) => ({ ...emptyProject("room.glb"), ...change });
@@ -107,4 +107,8 @@ test("a picture that stands has the shorter side as its width", () => {
 test("what was said of a picture or a folder goes before names", () => {
   const widths = { "tex/oak 50cm.jpg": 80, "tex/slate": 40 };
   same(["tex/oak 50cm.jpg", "tex/elm 50cm.jpg", "tex/slate/a/b 10cm.jpg", "tex/x.jpg", "tex"].map((p) => widthOf(widths, p)), [80, 50, 40, null, null]);
+});
+
+test("lamps without a name in the scene are told by kind and number", () => {
+  same(["Lamp", "sky", "light2_=light_source#2", "object17=#17", "Key=Spot,Rim"].map(lampLabel), ["Lamp", "sky", "Light 2", "Object 17", "Key"]);
 });

@@ -4,6 +4,13 @@ const VERSION = 1;
 export const TARGETS_MOST = 8;
 export const LAMPS_MOST = 16;
 
+/* What the page calls a lamp, of what -l takes: `Lamp`, or `light2=light_source#2` and `object7=#7` of lamps that have no
+ * name in the scene. */
+export function lampLabel(lamp) {
+  const [, kind, number] = /=(light_source)?#(\d+)$/.exec(lamp) || [];
+  return number ? `${kind ? "Light" : "Object"} ${number}` : lamp.split("=")[0];
+}
+
 /* What kind of file this is, by its name: a set is played as it is, a scene rendered, a model imported first. */
 export function kindOf(path) {
   const ending = /\.([^./]+)$/.exec(path || "")?.[1].toLowerCase();

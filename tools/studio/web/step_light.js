@@ -1,7 +1,7 @@
 /* Light: lamps and finishes that can be chosen after rendering. */
 import { finishListArgs, lampListArgs } from "./commands.js";
 import { button, check, h, icon, ICONS } from "./dom.js";
-import { finishTrouble, LAMPS_MOST } from "./project.js";
+import { finishTrouble, lampLabel, LAMPS_MOST } from "./project.js";
 
 export const id = "light", title = "Light", hint = "Choose what you want to change later without rendering again. You may leave all as it is.";
 export const isOpen = (app) => app.hasScene && app.project.targets.length > 0;
@@ -42,7 +42,7 @@ function lamps(app) {
   if (!list.length) return h("p", { class: "hint" }, "This scene has no lamps that can be changed.");
   const put = (names) => app.change("Change the lamps", (p) => ({ ...p, lamps: names.slice(0, LAMPS_MOST) }));
   const toggle = (name) => (on) => put(on ? [...chosen, name] : chosen.filter((l) => l !== name));
-  const lamp = (l, k) => h("li", {}, check(`lamp-${k}`, l.name, chosen.includes(l.name), toggle(l.name)), h("small", {}, `${Math.round(100 * l.share)} % of the light`));
+  const lamp = (l, k) => h("li", {}, check(`lamp-${k}`, lampLabel(l.name), chosen.includes(l.name), toggle(l.name)), h("small", {}, `${Math.round(100 * l.share)} % of the light`));
   const all = list.every((l) => chosen.includes(l.name));
   return [h("ul", { class: "lamps" }, list.map(lamp)),
     list.length > 1 ? button(all ? "None of them" : "All of them", () => put(all ? [] : list.map((l) => l.name)), { id: "all-lamps" }) : null];
