@@ -72,7 +72,7 @@ def main():
                 found.append(f"no anchor {target}")
             if target in page.pictures:
                 shown.add(file)
-                if os.path.exists(file) and not re.search(r"\.(jpg|png|svg)$", file):
+                if os.path.exists(file) and not re.search(r"\.(jpg|png|svg|webp)$", file):
                     found.append(f"no picture {target}")
         for what in found:
             print(f"{path}: {what}")

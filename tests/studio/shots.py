@@ -1,6 +1,6 @@
 """The pictures of docs/studio.md and the recording of README.md: shots.py OUT. The page of retex-studio, in headless
 Chromium, from the scene of the living room to another floor and wall. Writes OUT/studio-STEP.jpg and OUT/studio.webp.
-STUDIO_SIZE=640x360 and STUDIO_SPP=8 make a smaller render."""
+STUDIO_SIZE=640x360 and STUDIO_SPP=8 make a smaller render; STUDIO_CLEAR is for how many seconds a preview gets clearer."""
 import json
 import os
 import shutil
@@ -16,7 +16,7 @@ SIZE, SAMPLES = os.environ.get("STUDIO_SIZE", "1280x720"), int(os.environ.get("S
 WIDE = "960x600"  # of the recording's frames
 FLOOR, WALL = (0.1, 0.92), (0.62, 0.2)  # places of the picture
 LONG, SHORT = 1800, 700  # milliseconds
-CLEAR = 40  # seconds that a preview may take to be without grain
+CLEAR = int(os.environ.get("STUDIO_CLEAR", "60"))  # seconds that a preview may take to be without grain
 
 POINTER = """(() => { let e = document.querySelector('#pointer'); if (!e) { e = document.createElement('div'); e.id = 'pointer';
   Object.assign(e.style, { position: 'fixed', zIndex: 99, width: '26px', height: '26px', margin: '-13px', borderRadius: '16px',
@@ -36,13 +36,20 @@ class Recorder(Studio):
         self.screenshot(path)
         self.frames.append((path, milliseconds))
 
-    def press_at(self, x, y, times=1):
+    def point(self, x, y):
+        """A frame in which one is about to click here."""
         self.run(POINTER % (x, y))
         self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
         self.settle()
         self.frame(SHORT)
-        super().press_at(x, y, times)
         self.run("document.querySelector('#pointer')?.remove()")
+
+    def go(self, selector):
+        quoted = json.dumps(selector)
+        self.wait(f"document.querySelector({quoted}) && !document.querySelector({quoted}).disabled")
+        self.still(selector)
+        self.point(*self.run(f"(r => [r.x + r.width / 2, r.y + r.height / 2])(document.querySelector({quoted}).getBoundingClientRect())"))
+        super().go(selector)  # the panel may be another since
 
     def still(self, selector):
         super().still(selector)
@@ -117,6 +124,7 @@ def walk(page, server):
     page.go("#next-button")
     page.surfaces()
     for number, (place, name) in enumerate(((FLOOR, "Floor"), (WALL, "Wall"))):
+        page.point(*page.picture(*place))
         page.press_at(*page.picture(*place))
         page.wait(f"document.querySelector('#target-{number}')")
         page.surfaces()
