@@ -1,5 +1,5 @@
 # Completion of retex and its tools in bash. The tool that is called says itself what can stand at the cursor:
-# tools/complete.c describes its answers.
+# tools/common/complete.c describes its answers.
 
 # Sets retex_words to the words of the line up to the cursor. Readline also splits at =, : and @; what no blank separates
 # is one word here.

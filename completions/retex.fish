@@ -1,5 +1,5 @@
 # Completion of retex and its tools in fish. The tool that is called says itself what can stand at the cursor:
-# tools/complete.c describes its answers. This file also has the name of each tool, by which fish finds it.
+# tools/common/complete.c describes its answers. This file also has the name of each tool, by which fish finds it.
 
 function __retex_complete
     set -l words (commandline -opc)

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <retex/clock.h>
 #include <retex/host/half.h>
-#include "json_text.h"
+#include "common/json_text.h"
 #include "render/live.h"
 #include "render/surfaces.h"
 #include "render/uv_scale.h"

@@ -8,7 +8,7 @@
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
 #include "retex-render.h"
-#include "watchdog.h"
+#include "common/watchdog.h"
 #include "render/aov_files.h"
 #include "render/mattes.h"
 

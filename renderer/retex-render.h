@@ -5,9 +5,9 @@
 
 #include <retex/retex.h>
 #include "batch/batch.h"
-#include "cli.h"
-#include "texture_args.h"
-#include "frames.h"
+#include "common/cli.h"
+#include "common/texture_args.h"
+#include "common/frames.h"
 #include "job/ini.h"
 #include "job/job.h"
 

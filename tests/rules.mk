@@ -28,7 +28,7 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-$(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/confine.o
+$(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/common/confine.o
 # What retex-import asks of a model's surfaces is tested without Assimp.
 $(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/%.o,space room room_view)
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
@@ -42,7 +42,7 @@ $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
 $(BUILD)/tests/unit/test_studio: private TEST_LIBS += $(SERVE_LIBS)
 $(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply)
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
-	    $(BUILD)/obj/tools/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+	    $(BUILD)/obj/tools/common/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
 

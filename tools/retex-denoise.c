@@ -9,7 +9,7 @@
 #include <retex/pack.h>
 #include <retex/set_file.h>
 
-#include "cli.h"
+#include "common/cli.h"
 
 /* Strips take as long as the whole set in memory, and a third of the memory at 1920 x 1080. */
 #define MEMORY_DEFAULT ((uint64_t)512 << 20)

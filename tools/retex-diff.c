@@ -5,8 +5,8 @@
 
 #include <retex/diff.h>
 
-#include "cli.h"
-#include "json_text.h"
+#include "common/cli.h"
+#include "common/json_text.h"
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the figures as JSON", 0},

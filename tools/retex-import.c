@@ -22,10 +22,10 @@
 
 #include <retex/retex.h>
 
-#include "cli.h"
-#include "confine.h"
+#include "common/cli.h"
+#include "common/confine.h"
 #include "import/import.h"
-#include "watchdog.h"
+#include "common/watchdog.h"
 
 enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
 

@@ -6,8 +6,8 @@
 
 #include <retex/retex.h>
 
-#include "cli.h"
-#include "compositor.h"
+#include "common/cli.h"
+#include "common/compositor.h"
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the manifest and the sizes as JSON", 0},

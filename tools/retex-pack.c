@@ -10,8 +10,8 @@
 #include <retex/set_file.h>
 #include <retex/web.h>
 
-#include "cli.h"
-#include "output_folder.h"
+#include "common/cli.h"
+#include "common/output_folder.h"
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},

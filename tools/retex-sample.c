@@ -1,6 +1,6 @@
 /* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
-#include "kept_textures.h"
-#include "texture_args.h"
+#include "common/kept_textures.h"
+#include "common/texture_args.h"
 
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1},

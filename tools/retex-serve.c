@@ -9,9 +9,9 @@
 
 #include <retex/retex.h>
 
-#include "cli.h"
+#include "common/cli.h"
 #include "serve/http.h"
-#include "watchdog.h"
+#include "common/watchdog.h"
 
 static const CliOption options[] = {
     {"port", 0, "N", "listen on this port; 0: a free one, which is printed; default 8080", 0},

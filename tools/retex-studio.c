@@ -8,10 +8,10 @@
 
 #include <retex/retex.h>
 
-#include "cli.h"
+#include "common/cli.h"
 #include "studio/browser.h"
 #include "studio/http.h"
-#include "watchdog.h"
+#include "common/watchdog.h"
 
 static const CliOption options[] = {
     {"port", 0, "N", "listen on this port of 127.0.0.1; 0, the default: a free one", 0},

@@ -57,12 +57,11 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 	@mkdir -p $(@D)
 	$(SAY)$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
 
-# A tool is tools/retex-NAME.c, the common command line and the library. It contains the library, so that it runs from any
+# A tool is tools/retex-NAME.c, tools/common and the library. It contains the library, so that it runs from any
 # folder, starts without relocating it, and always is of one version with it. It loads the bridge from beside it at run
 # time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
-TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files cli_hints complete watchdog compositor frames kept_textures \
-	output_folder json_text) $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/batch/*.c))
+TOOL_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out %/confine.c,$(wildcard tools/common/*.c)) $(wildcard tools/batch/*.c))
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
@@ -71,7 +70,7 @@ $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) |
 $(BUILD)/obj/tools/decode/%.o: tools/decode/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(CFLAGS_ALL) -MMD -MP -c $< -o $@
-$(DECODER): $(BUILD)/obj/tools/decode/main.o $(BUILD)/obj/tools/confine.o $(LIBRETEX) | $(BRIDGE)
+$(DECODER): $(BUILD)/obj/tools/decode/main.o $(BUILD)/obj/tools/common/confine.o $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
@@ -119,7 +118,7 @@ $(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS
 EMBREE_CFLAGS = $(filter -DRETEX_EMBREE%,$(RENDER_CFLAGS))
 EMBREE_LIBS = $(filter -lembree%,$(RENDER_LIBS))
 IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c)) $(BUILD)/obj/tools/import/draco_mesh.o
-$(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(BUILD)/obj/tools/confine.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+$(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(BUILD)/obj/tools/common/confine.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS)
 
@@ -160,7 +159,7 @@ $(BUILD)/obj/gen/studio_page.o: $(BUILD)/gen/studio_page.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
 STUDIO_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/studio/*.c)) $(HTTP_OBJECTS) \
-	$(BUILD)/obj/tools/confine.o $(BUILD)/obj/gen/studio_page.o
+	$(BUILD)/obj/tools/common/confine.o $(BUILD)/obj/gen/studio_page.o
 $(BUILD)/bin/retex-studio: $(BUILD)/obj/tools/retex-studio.o $(STUDIO_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)

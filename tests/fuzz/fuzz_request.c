@@ -7,7 +7,7 @@
 
 #include <jansson.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 #include "lib_fuzz.h"
 #include "serve/iiif.h"
 

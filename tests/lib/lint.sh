@@ -46,7 +46,7 @@ forbid oiio_plugins \
     "the plugins use libretex's public headers only"
 for file in renderer/*/*.[ch] renderer/*/*/*.[ch]; do
     [ -e "$file" ] || continue
-    ! grep -qE '#include *"cli\.h"' "$file" || complain "$file: only mains may include cli.h"
+    ! grep -qE '#include *"common/cli\.h"' "$file" || complain "$file: only mains may include cli.h"
 done
 
 # FILE NEEDED SYMBOL for each symbol that a file's object takes from another's, where there are objects; without suffix
@@ -79,6 +79,9 @@ rooms() { # directory rank:room…
 back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7:precision 8:retexture 9:solve 9:denoise 9:metrics 9:compact 10:reduce \
     11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
+$back"
+back=$(rooms tools 1:common 2:batch 2:http 2:decode 2:import 3:combine 3:serve 3:studio)
+[ -z "$back" ] || complain "rooms of tools, from one that stands later:
 $back"
 back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light \
     7:sdl/state 8:sdl/texture 9:sdl/medium 10:sdl/object 11:sdl/camera 12:sdl/place 13:sdl \

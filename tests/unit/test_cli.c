@@ -2,7 +2,7 @@
 #include "lib_test.h"
 #include <cmocka.h>
 
-#include "cli.h"
+#include "common/cli.h"
 
 static const CliOption options[] = {
     {"target", 't', "NAME", "", 0},

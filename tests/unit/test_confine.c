@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "confine.h"
+#include "common/confine.h"
 
 #define HOLDS(what)                                                                                                    \
     do {                                                                                                               \

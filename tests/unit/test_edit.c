@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "cli.h"
+#include "common/cli.h"
 
 static RetexEdit *create(void)
 {

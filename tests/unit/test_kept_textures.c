@@ -1,6 +1,6 @@
 /* Textures that stay in memory from one picture to the next. Whether an image is read again shows when its file is
  * gone. */
-#include "kept_textures.h"
+#include "common/kept_textures.h"
 #include "lib_folder.h"
 #include "lib_test.h"
 

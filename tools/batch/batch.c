@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "batch/batch.h"
-#include "output_folder.h"
-#include "texture_args.h"
-#include "watchdog.h"
+#include "common/output_folder.h"
+#include "common/texture_args.h"
+#include "common/watchdog.h"
 
 /* ---- options ---- */
 

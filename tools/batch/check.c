@@ -10,8 +10,8 @@
 #include <retex/retex.h>
 
 #include "batch/batch.h"
-#include "output_folder.h"
-#include "texture_args.h"
+#include "common/output_folder.h"
+#include "common/texture_args.h"
 
 enum { COLORSPACES_MAX = 32 }; /* colour spaces that are checked; further ones are checked when their picture is made */
 

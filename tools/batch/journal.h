@@ -7,7 +7,7 @@
 #ifndef RETEX_BATCH_JOURNAL_H
 #define RETEX_BATCH_JOURNAL_H
 
-#include "cli.h"
+#include "common/cli.h"
 
 /* What the journal says about a picture. */
 typedef enum PictureState {

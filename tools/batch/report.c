@@ -7,8 +7,8 @@
 #include <retex/retex.h>
 
 #include "batch/batch.h"
-#include "json_text.h"
-#include "texture_args.h"
+#include "common/json_text.h"
+#include "common/texture_args.h"
 
 static const char *status_name(const Batch *batch, const BatchRow *row)
 {

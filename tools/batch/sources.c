@@ -11,7 +11,7 @@
 #include <retex/version.h>
 
 #include "batch/sources.h"
-#include "json_text.h"
+#include "common/json_text.h"
 
 /* ---- checksums of files ---- */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "batch/texture_table.h"
-#include "texture_args.h"
+#include "common/texture_args.h"
 
 /* Grow an array for one more element. */
 static void *grow(const Cli *cli, void *array, size_t used, size_t *capacity, size_t size)

@@ -8,7 +8,7 @@
 
 #include <retex/edit.h>
 
-#include "cli.h"
+#include "common/cli.h"
 
 /* Maximum bytes of a table; maximum numbers of mistakes that are kept and that are printed. The others are only
  * counted. */

@@ -5,9 +5,9 @@
 #include <retex/retex.h>
 
 #include "batch/batch.h"
-#include "frames.h"
-#include "kept_textures.h"
-#include "texture_args.h"
+#include "common/frames.h"
+#include "common/kept_textures.h"
+#include "common/texture_args.h"
 
 typedef struct Job {
     const char *set_path, *samples_path, *table, *error;

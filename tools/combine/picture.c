@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "combine/job.h"
-#include "json_text.h"
-#include "watchdog.h"
+#include "common/json_text.h"
+#include "common/watchdog.h"
 
 int job_describe(const Job *job, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS])
 {

@@ -15,7 +15,7 @@
 
 #include <retex/parallel.h>
 
-#include "confine.h"
+#include "common/confine.h"
 #include "picture/image_format.h"
 #include "picture/image_read.h"
 

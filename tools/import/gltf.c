@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "import/variants.h"
-#include "json_text.h"
+#include "common/json_text.h"
 
 uint32_t gltf_little(const unsigned char *p)
 {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 
 Answer *answer_new(int status, const char *type, void *data, size_t bytes)
 {

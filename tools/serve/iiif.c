@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 #include "url.h"
 
 #define CONTEXT "http://iiif.io/api/image/3/context.json"

@@ -7,7 +7,7 @@
 
 #include <retex/clock.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 
 static void write_time(FILE *file)
 {

@@ -10,7 +10,7 @@
 #include <retex/edit.h>
 
 #include "iiif.h"
-#include "json_text.h"
+#include "common/json_text.h"
 #include "url.h"
 
 int serve_refuse(ServeRequest *request, int status, const char *fmt, ...)

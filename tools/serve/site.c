@@ -11,7 +11,7 @@
 
 #include "http/hash.h"
 #include "http/thumbnail.h"
-#include "json_text.h"
+#include "common/json_text.h"
 #include "picture.h"
 
 /* ---- what a request is of ---- */

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 
 static int hex_digit(char c)
 {

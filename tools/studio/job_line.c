@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "output_folder.h"
+#include "common/output_folder.h"
 
 static const struct {
     const char *name;

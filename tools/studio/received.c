@@ -11,8 +11,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "json_text.h"
-#include "output_folder.h"
+#include "common/json_text.h"
+#include "common/output_folder.h"
 
 enum { MOST_PARTS = 8, MOST_OF_PART = 120, MOST_NUMBERS = 1000, COMPARED = 1 << 14 };
 

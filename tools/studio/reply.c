@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "json_text.h"
+#include "common/json_text.h"
 
 void reply_header(Reply *reply, const char *name, const char *value)
 {

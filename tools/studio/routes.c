@@ -9,7 +9,7 @@
 
 #include "folder.h"
 #include "media.h"
-#include "output_folder.h"
+#include "common/output_folder.h"
 #include "page.h"
 
 enum { WAIT_SECONDS = 25, HEADER_BYTES = 8192 };

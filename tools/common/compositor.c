@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compositor.h"
+#include "common/compositor.h"
 
 /* Of the soft copy: its size in pixels, and how far it is blurred, as a standard deviation in UV. */
 #define SOFT_SIZE 64

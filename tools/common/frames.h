@@ -2,7 +2,7 @@
 #ifndef RETEX_FRAMES_H
 #define RETEX_FRAMES_H
 
-#include "cli.h"
+#include "common/cli.h"
 
 /* Frames first, first + step, … up to last. step 0: no frames, --frames was not given. */
 typedef struct FrameRange {

@@ -1,5 +1,5 @@
 /* See json_text.h. */
-#include "json_text.h"
+#include "common/json_text.h"
 
 int utf8_length(const char *characters)
 {

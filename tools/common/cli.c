@@ -1,7 +1,7 @@
 /* The command line of all tools, see cli.h: options (parsing, lookup, --help), then values, messages, output. What was
  * probably meant by wrong ones is in cli_hints.c. */
-#include "cli.h"
-#include "watchdog.h"
+#include "common/cli.h"
+#include "common/watchdog.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,5 +1,5 @@
 /* See output_folder.h. */
-#include "output_folder.h"
+#include "common/output_folder.h"
 
 #include <errno.h>
 #include <stdlib.h>

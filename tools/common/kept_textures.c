@@ -1,7 +1,7 @@
 /* See kept_textures.h. */
 #include <string.h>
 
-#include "kept_textures.h"
+#include "common/kept_textures.h"
 
 /* Close images, those first that were not used for longest: not the first `used` ones, and others only if there are
  * more than `most`, or they take more than most_bytes together with those that were used later. */

@@ -9,8 +9,8 @@
 
 #include <retex/retex.h>
 
-#include "cli.h"
-#include "frames.h"
+#include "common/cli.h"
+#include "common/frames.h"
 
 typedef struct TextureArgs {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];

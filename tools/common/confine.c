@@ -1,5 +1,5 @@
 /* See confine.h. */
-#include "confine.h"
+#include "common/confine.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* The list of a tool's input and output files, which finds an output that is also an input or another output: see
  * cli.h. */
-#include "cli.h"
+#include "common/cli.h"
 
 #include <limits.h>
 #include <stdint.h>

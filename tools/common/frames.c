@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frames.h"
+#include "common/frames.h"
 
 enum { DIGITS_MAX = 9 }; /* of a frame's number, and of its field in a name */
 

@@ -5,7 +5,7 @@
 
 #include <retex/nearest.h>
 
-#include "cli.h"
+#include "common/cli.h"
 
 /* Names by which other programs, and other tools of retex, know what a tool has or does. The first row that has the
  * name and fits the tool counts. */

@@ -1,6 +1,6 @@
 /* See watchdog.h. All threads block the signals; one thread receives them by sigtimedwait. Nothing runs in a signal
  * handler. */
-#include "watchdog.h"
+#include "common/watchdog.h"
 
 #include <fcntl.h>
 #include <math.h>
