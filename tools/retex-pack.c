@@ -306,7 +306,8 @@ int main(int argc, char **argv)
         .argc = argc,
         .argv = argv,
         .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
-                 "       retex-pack SET [--quality 1..100] [--web-lamps N] [--web-smaller N,...] --web DIR\n"
+                 "       retex-pack SET [--quality 1..100] [--web-lamps N] [--web-smaller N,...]\n"
+                 "                  --web DIR\n"
                  "       retex-pack --unpack FILE.retex -o SET.exr",
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "

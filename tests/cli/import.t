@@ -355,7 +355,7 @@ $ for m in ktx webp; do retex-import -q --partial $m.gltf -o $m; grep -c image_m
 ! retex-import: warning: the image `wood.ktx2` of the material `wood` is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
 $ sh look avif.gltf; retex-diff -q --part albedo --fail-abs 0.02 avif.exr reference.exr
 $ retex-import -q --safe avif.gltf -o odd
-! retex-import: warning: the image `F.avif` cannot be read: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-import: warning: the image `F.avif` cannot be read: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-import: error: avif.gltf: 1 image is lost, see above; --partial makes the scene without it
 = 2
 $ retex-import -q ktx_some.gltf -o odd

@@ -123,8 +123,8 @@ $ printf 'background { rgb 1 }\nbox { -1, 1 }\n#for (I, 1, 10000)\n#warning "%s"
 > retex-render: a/b/loud.pov:4: warning: 0000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000
 
 # Pictures: those of the list, known by what is in them, are read as ever.
-$ make_set s.exr 24 16; make_picture t.exr size=16x16; retex-combine -q s.exr -o t.png; for e in jpg tif tga bmp gif hdr exr; do retex-combine -q s.exr -o t.$e; done
-$ for e in png jpg tif tga bmp gif hdr exr; do cp t.$e t.$e.txt; for f in t.$e t.$e.txt; do retex-combine -q s.exr --texture floor=$f -o any.exr; retex-combine --safe -q s.exr --texture floor=$f -o safe.exr && cmp any.exr safe.exr && echo "$f same"; done; done
+$ make_set s.exr 24 16; make_picture t.exr size=16x16; retex-combine -q s.exr -o t.png; for e in jpg tif tga bmp gif hdr exr webp; do retex-combine -q s.exr -o t.$e; done
+$ for e in png jpg tif tga bmp gif hdr exr webp; do cp t.$e t.$e.txt; for f in t.$e t.$e.txt; do retex-combine -q s.exr --texture floor=$f -o any.exr; retex-combine --safe -q s.exr --texture floor=$f -o safe.exr && cmp any.exr safe.exr && echo "$f same"; done; done
 > t.png same
 > t.png.txt same
 > t.jpg same
@@ -141,6 +141,8 @@ $ for e in png jpg tif tga bmp gif hdr exr; do cp t.$e t.$e.txt; for f in t.$e t
 > t.hdr.txt same
 > t.exr same
 > t.exr.txt same
+> t.webp same
+> t.webp.txt same
 $ for o in colorspace=linear colorspace=ACEScg colorspace=sRGB; do for e in png jpg exr hdr tif; do retex-combine -q s.exr --texture:$o floor=t.$e -o any.exr 2>/dev/null; retex-combine --safe -q s.exr --texture:$o floor=t.$e -o safe.exr 2>/dev/null; cmp any.exr safe.exr; done; done; for e in png jpg exr hdr tga; do retex-diff --safe -q t.$e t.$e || echo $e; done
 # All else is not, whatever it is called.
 $ retex-combine -q s.exr -o t.ppm; retex-combine -q s.exr -o t.dpx; retex-combine -q s.exr -o t.sgi; cp t.ppm ppm.png; cp t.dpx dpx.tga; echo text >text.png; : >empty.png; cp t.png png.tga; printf 'BM but no picture, as the size of its header says' >bm.bmp; for f in t.ppm ppm.png t.dpx dpx.tga t.sgi text.png empty.png bm.bmp s.exr png.tga; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; echo $f $?; done
@@ -154,23 +156,23 @@ $ retex-combine -q s.exr -o t.ppm; retex-combine -q s.exr -o t.dpx; retex-combin
 > bm.bmp 2
 > s.exr 0
 > png.tga 0
-! retex-combine: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: ppm.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: t.dpx: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: dpx.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: t.sgi: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: text.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: empty.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: bm.bmp: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: ppm.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: t.dpx: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: dpx.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: t.sgi: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: text.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: empty.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: bm.bmp: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 # A TGA without a footer needs its name, and a header that fits the file.
 $ head -c $(($(wc -c <t.tga) - 26)) t.tga >bare.tga; cp bare.tga bare.dat; head -c 400 bare.tga >cut.tga; head -c 5000 /dev/zero >zero.tga; for f in bare.tga bare.dat cut.tga zero.tga; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; echo $f $?; done
 > bare.tga 0
 > bare.dat 2
 > cut.tga 2
 > zero.tga 2
-! retex-combine: error: bare.dat: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: cut.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-combine: error: zero.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: bare.dat: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: cut.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: zero.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 # Of a GIF and a BMP the size is looked at before a decoder makes room for it.
 $ printf 'GIF89a\030\171\030\171\200\0\0\0\0\0\377\377\377,\0\0\0\0\1\0\1\0\0\2\2\104\1\0;' >wide.gif; { printf 'BM\66\0\0\0\0\0\0\0\66\4\0\0\50\0\0\0\60\165\0\0\60\165\0\0\1\0\10\0'; head -c 1048 /dev/zero; } >wide.bmp; for o in '--max-memory 200M' '--max-pixels 1000000'; do for f in wide.gif wide.bmp; do retex-combine --safe $o -q s.exr --texture floor=$f -o x.exr; done; done
 ! retex-combine: error: wide.gif: the picture is too large: 961000000 pixels, more than --max-memory has room for
@@ -188,21 +190,21 @@ $ for f in pipe.pov /dev/zero /dev/stdin a /proc/self/environ; do retex-combine 
 ! retex-combine: error: /dev/stdin is a folder, a device or a pipe: only files are read (--safe)
 ! retex-combine: error: a: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has up.df3, up.inc, up.ini and 3 more
 ! retex-combine: error: a is a folder, a device or a pipe: only files are read (--safe)
-! retex-combine: error: /proc/self/environ: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: /proc/self/environ: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-combine: error: /proc/self/environ is not a set: it is empty
 = 2
 $ printf 'output,floor\nb.png,t.ppm\n' >b.csv; retex-combine --safe -q s.exr --batch b.csv; retex-combine --safe -q s.exr --batch pipe.pov; for o in '--replace Floor=t.ppm -o x.png' '--variants b.csv'; do retex-render --safe -q --spp 1 --size 8x8 $o "$SCENES/cornell-box/cornell-box.pov"; done
-! retex-combine: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-combine: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
-! retex-render: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-! retex-render: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-render: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
+! retex-render: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 = 2
 $ retex-sample --safe -q s.exr --texture floor=t.png | retex-combine --safe -q - -o x.exr; retex-pack --safe -q --lossless - -o x.retex <s.exr; for t in 'denoise -o x.exr' 'pack -o x.retex' 'sample --texture Floor=t.png -o x.exr' info; do retex-$t --safe -q pipe.pov; done; retex-diff --safe t.ppm t.ppm; retex-diff --safe pipe.pov t.png
 ! retex-denoise: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 ! retex-pack: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 ! retex-sample: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 ! retex-info: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
-! retex-diff: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-diff: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-diff: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 = 2
 $ retex-render --safe -q --spp 1 --size 8x8 -t Floor --merge pipe.pov "$SCENES/cornell-box/cornell-box.pov" -o m.exr; retex-render --safe -q --spp 1 --size 8x8 --control pipe.pov --replace Floor=t.png "$SCENES/cornell-box/cornell-box.pov" -o m.exr

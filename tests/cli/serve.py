@@ -445,7 +445,9 @@ def uploads(server):
     expect('old ones go, other files stay', (os.path.exists('uploads/' + name), os.path.exists('uploads/mine.txt')),
            (False, True))
     expect('gone', ask(server, f'/v1/small/Floor={name}/full.png?quality=90').status, 404)
-    expect('place', send(server, open('third.png', 'rb').read()).status, 201)
+    subprocess.run(['retex-combine', '-q', 'rooms/small.retex', '-o', 'small.webp'], check=True)
+    answer = send(server, open('small.webp', 'rb').read())
+    expect('place, and a WebP', (answer.status, json.loads(answer.body)['texture'].endswith('.webp')), (201, True))
     expect('files', sum(file.startswith('.') for file in os.listdir('uploads')), 0)
 
 

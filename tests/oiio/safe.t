@@ -9,7 +9,7 @@ $ for t in up.png ../up.png link.png /etc/passwd /nowhere nowhere.png t.ppm pipe
 > oiiotool ERROR: read : "in/room.retex?Floor=/etc/passwd": /etc/passwd is outside the folder of the file that is read, the only one that may be (--safe)
 > oiiotool ERROR: read : "in/room.retex?Floor=/nowhere": /nowhere is outside the folder of the file that is read, the only one that may be (--safe)
 > oiiotool ERROR: read : "in/room.retex?Floor=nowhere.png": cannot read nowhere.png: No such file or directory
-> oiiotool ERROR: read : "in/room.retex?Floor=t.ppm": in/t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=t.ppm": in/t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 > oiiotool ERROR: read : "in/room.retex?Floor=pipe.png": in/pipe.png is a folder, a device or a pipe: only files are read (--safe)
 > oiiotool ERROR: read : "in/room.retex?Floor=sub": in/sub: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has t.png
 > oiiotool ERROR: read : "in/room.retex?Floor=in/t.png": cannot read in/t.png: No such file or directory

@@ -151,8 +151,12 @@ static void test_lines(void **state)
     assert_string_equal(line.words[line.count - 2], "--");
     assert_string_equal(line.words[line.count - 1], "-o x.pov");
     line_free(&line);
-    assert_true(line_is_long("retex-render") && line_is_long("retex-denoise"));
-    assert_false(line_is_long("retex-info") || line_is_long("sh"));
+    json_t *list = json_pack("[s, s]", "--list-lamps", "room.pov"), *render = json_pack("[s, s]", "-q", "room.pov");
+    assert_true(line_is_long("retex-render", render) && line_is_long("retex-denoise", render));
+    assert_false(line_is_long("retex-info", render) || line_is_long("sh", render));
+    assert_false(line_is_long("retex-render", list));
+    json_decref(list);
+    json_decref(render);
 }
 
 static void test_what_is_no_job(void **state)

@@ -14,7 +14,8 @@
 
 enum { MOST_OPEN = 4096 }; /* images that nobody uses are closed from this number on */
 
-static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "tga", "bmp", "gif", NULL};
+static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "tga", "bmp", "gif", "webp",
+                                      NULL};
 
 /* What decides on the texels. */
 typedef struct ImageKey {

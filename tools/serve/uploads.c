@@ -36,27 +36,29 @@ struct Uploads {
 
 /* ---- the folder ---- */
 
-static const char *const endings[] = {"jpg", "png", "exr", "tif", "bmp", "gif", "hdr", NULL};
+static const char *const endings[] = {"jpg", "png", "exr", "tif", "bmp", "gif", "hdr", "webp", NULL};
 
 /* The ending of a file by its first bytes, or NULL. */
 static const char *ending_of(const char *data, size_t bytes)
 {
     static const struct {
-        const char *begin;
+        const char *mark;
         size_t length;
         int ending;
-    } begins[] = {{"\xff\xd8\xff", 3, 0},
-                  {"\x89PNG\r\n\x1a\n", 8, 1},
-                  {"\x76\x2f\x31\x01", 4, 2},
-                  {"II*\0", 4, 3},
-                  {"MM\0*", 4, 3},
-                  {"BM", 2, 4},
-                  {"GIF8", 4, 5},
-                  {"#?RADIANCE", 10, 6},
-                  {"#?RGBE", 6, 6}};
-    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
-        if (bytes > begins[i].length && memcmp(data, begins[i].begin, begins[i].length) == 0)
-            return endings[begins[i].ending];
+        size_t at; /* where the mark stands */
+    } marks[] = {{"\xff\xd8\xff", 3, 0, 0},
+                 {"\x89PNG\r\n\x1a\n", 8, 1, 0},
+                 {"\x76\x2f\x31\x01", 4, 2, 0},
+                 {"II*\0", 4, 3, 0},
+                 {"MM\0*", 4, 3, 0},
+                 {"BM", 2, 4, 0},
+                 {"GIF8", 4, 5, 0},
+                 {"#?RADIANCE", 10, 6, 0},
+                 {"#?RGBE", 6, 6, 0},
+                 {"WEBP", 4, 7, 8}};
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        if (bytes > marks[i].at + marks[i].length && memcmp(data + marks[i].at, marks[i].mark, marks[i].length) == 0)
+            return endings[marks[i].ending];
     return NULL;
 }
 
@@ -314,7 +316,8 @@ Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_
     int size[2] = {0, 0};
     if (!ending)
         return answer_error(
-            415, "expected an image, the file itself and no form: JPEG, PNG, OpenEXR, TIFF, BMP, GIF or Radiance HDR");
+            415,
+            "expected an image, the file itself and no form: JPEG, PNG, OpenEXR, TIFF, BMP, GIF, WebP or Radiance HDR");
     snprintf(name, sizeof name, "%s.%s", hash, ending);
     if (snprintf(path, sizeof path, "%s/%s", uploads->params.folder, name) >= (int)sizeof path)
         return answer_error(500, "the server cannot keep this");

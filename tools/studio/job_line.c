@@ -24,9 +24,14 @@ static int find_tool(const char *name)
     return k;
 }
 
-int line_is_long(const char *tool)
+int line_is_long(const char *tool, const json_t *args)
 {
     const int k = find_tool(tool);
+    const json_t *arg;
+    size_t i;
+    json_array_foreach (args, i, arg)
+        if (strncmp(json_string_value(arg), "--list-", 7) == 0)
+            return 0;
     return k >= 0 && tools[k].is_long;
 }
 

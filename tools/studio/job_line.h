@@ -29,7 +29,8 @@ int line_make_live(Line *line, const char *scene, const json_t *args, const Prog
                    RetexError *err);
 void line_free(Line *line);
 
-/* 1: it uses all cores for long, so that one such tool runs after the other. */
-int line_is_long(const char *tool);
+/* 1: it uses all cores for long, so that one such tool runs after the other. Lists of a scene's lamps and the like are
+ * not, though retex-render makes them. args: an array of strings. */
+int line_is_long(const char *tool, const json_t *args);
 
 #endif

@@ -94,7 +94,7 @@ int jobs_add(Jobs *jobs, const json_t *asked, const ProgramLimits *limits, const
     }
     job->asked = json_deep_copy(asked);
     job->model = model;
-    job->is_long = line_is_long(tool);
+    job->is_long = line_is_long(tool, json_object_get(asked, "args"));
     job->is_confined = !limits->is_unsafe;
     job->child = (Child)CHILD_NONE;
     changes_lock(jobs->changes);

@@ -10,7 +10,8 @@
 
 #include <retex/clock.h>
 
-enum { NICE = 5, KILL_SECONDS = 3, HEAD_BYTES = 16 << 20, READ_BYTES = 64 << 10 };
+/* Beside a render, which has NICE of jobs.c, it gets a quarter of the processor time. */
+enum { NICE = 15, KILL_SECONDS = 3, HEAD_BYTES = 16 << 20, READ_BYTES = 64 << 10 };
 #define ANSWER_BYTES ((json_int_t)1 << 30)
 
 static const char *const kind_names[] = {"live", "picture", "surfaces", "uv", "error"};

@@ -88,6 +88,8 @@ const char *retex_image_format(const RetexInput *input)
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
         if (memcmp(begin, marks[i].mark, marks[i].length) == 0)
             return marks[i].name;
+    if (memcmp(begin, "RIFF", 4) == 0 && memcmp(begin + 8, "WEBP", 4) == 0)
+        return "webp";
     if (is_tiff(begin))
         return "tiff";
     if (is_bmp(begin))

@@ -4,7 +4,7 @@
 
 #include "io/input.h"
 
-#define RETEX_IMAGE_FORMATS "PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR"
+#define RETEX_IMAGE_FORMATS "PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR"
 
 /* OpenImageIO's name of the format, or NULL where the content is none of these formats. The name of the input matters
  * for TGA only. */

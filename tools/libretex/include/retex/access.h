@@ -1,10 +1,10 @@
 /* Access: which files may be read where the name comes from somebody else, such as a scene or a request.
  *
  * A file is in a folder if its path is, after links and `..` are resolved. Safe access, for scenes and names from
- * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF and Radiance
- * HDR, recognised by their content (TGA has no signature: by its name and a plausible header, or by its footer), each
- * read by its own decoder only, in a process of its own that is limited and confined; and the file that is read is the
- * one that was checked, even if its name is changed meanwhile. */
+ * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP and
+ * Radiance HDR, recognised by their content (TGA has no signature: by its name and a plausible header, or by its
+ * footer), each read by its own decoder only, in a process of its own that is limited and confined; and the file that
+ * is read is the one that was checked, even if its name is changed meanwhile. */
 #ifndef RETEX_ACCESS_H
 #define RETEX_ACCESS_H
 
