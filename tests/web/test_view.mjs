@@ -397,7 +397,7 @@ async function load(changes = {}, change = (room) => room, hash = "") {
     }
   }
   const world = {
-    Image, WebGLTexture, performance: { now: () => 0 }, cancelAnimationFrame: () => {}, requestAnimationFrame: () => 1, location: { protocol: "https:", hash },
+    Image, WebGLTexture, devicePixelRatio: 1, performance: { now: () => 0 }, cancelAnimationFrame: () => {}, requestAnimationFrame: () => 1, location: { protocol: "https:", hash },
     document: { baseURI: "https://x.org/" }, setTimeout: (action) => action(),
     fetch: async (url) => {
       const name = String(url).replace("https://x.org/rooms/one/", "");
@@ -407,8 +407,9 @@ async function load(changes = {}, change = (room) => room, hash = "") {
     },
   };
   const made = player(world);
-  const room = element(made.RetexRoom, { canvas: anything({ getContext: () => gl, classList: anything() }) }, {
-    textures: [], light: { exposure: 0, warmth: 0 }, selected: 0, id: "",
+  const stage = anything({ getBoundingClientRect: () => ({ width: 20, height: 10 }) });
+  const room = element(made.RetexRoom, { canvas: anything({ getContext: () => gl, classList: anything() }), ".stage": stage }, {
+    textures: [], light: { exposure: 0, warmth: 0 }, zoom: { times: 1 }, selected: 0, id: "",
     getAttribute: () => "rooms/one", hasAttribute: () => false, refresh: () => {}, say: () => {},
     emit: (name) => name !== "retex-draw" && log.push(name), fail: (message) => message && log.push(`failed: ${message}`),
   });
