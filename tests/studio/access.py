@@ -79,7 +79,7 @@ def axe(page, work):
     page.wait("document.querySelector('.renders .good')")
     judge(page, "render", text)
     page.go("#next-button")
-    page.wait("document.querySelector('retex-room')?.complete")
+    page.wait("document.querySelector('retex-room')?.isComplete")
     page.go("#root-1")
     page.go("#swatch-1")
     page.wait("document.querySelector('#picture-width')")
@@ -146,7 +146,7 @@ def keyboard(page, work):
     page.wait("document.querySelector('.renders .good')", 200)
     result(all(good), "it is rendered by keys")
     good = [press(page, "#next-button")]
-    page.wait("document.querySelector('retex-room')?.complete")
+    page.wait("document.querySelector('retex-room')?.isComplete")
     good += [press(page, "#root-1"), press(page, "#swatch-1", " ")]
     page.wait("document.querySelector('retex-room').getState().textures.Ground")
     good.append(press(page, "#next-button"))

@@ -104,7 +104,7 @@ def walk_room(page, server, name, row, clean):
     walk.shot("render")
     page.go("#next-button")
     walk.panel()
-    walk.stage("page", "document.querySelector('retex-room')?.complete", 300)
+    walk.stage("page", "document.querySelector('retex-room')?.isComplete", 300)
     page.go("#root-1")
     lay(walk, "Floor", FLOOR)
     lay(walk, "Wall", WALL)

@@ -141,7 +141,7 @@ def walk(page, server):
     page.wait("document.querySelector('.renders .good')", 3600)
     page.step("render")
     page.go("#next-button")
-    page.wait("document.querySelector('retex-room')?.complete", 300)
+    page.wait("document.querySelector('retex-room')?.isComplete", 300)
     page.go("#root-1")
     for target, texture in (("Floor", "walnut"), ("Wall", "damask")):
         page.run(f"document.querySelector('retex-room').select({target!r})")

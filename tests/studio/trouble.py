@@ -70,7 +70,7 @@ def wrong_picture(page, work):
     page.go("#next-button")
     page.wait("document.querySelector('.renders .good')")
     page.go("#next-button")
-    page.wait("document.querySelector('retex-room')?.complete && !document.querySelector('#add-pictures').disabled")
+    page.wait("document.querySelector('retex-room')?.isComplete && !document.querySelector('#add-pictures').disabled")
     with open(f"{work}/oak.jpg", "wb") as file:
         file.write(b"\xff\xd8 no picture")
     page.files("#panel-body input[type=file]", f"{work}/oak.jpg")
