@@ -65,14 +65,14 @@ class Recorder(Studio):
         self.settle()
         self.run("document.querySelectorAll('#messages .note').forEach(e => e.remove())")
         self.frame(LONG)
-        subprocess.run(["oiiotool", self.frames[-1][0], "--ch", "R,G,B", "--compression", "jpeg:82", "-o",
+        subprocess.run(["oiiotool", "--nosoftwareattrib", self.frames[-1][0], "--ch", "R,G,B", "--compression", "jpeg:82", "-o",
                         f"{self.out}/studio-{name}.jpg"], check=True)
 
     def record(self):
         parts = []
         for path, milliseconds in self.frames:
-            subprocess.run(["oiiotool", path, "--ch", "R,G,B", "--resize", WIDE, "--compression", "webp:70", "-o", f"{path}.webp"],
-                           check=True)
+            subprocess.run(["oiiotool", "--nosoftwareattrib", path, "--ch", "R,G,B", "--resize", WIDE, "--compression",
+                            "webp:70", "-o", f"{path}.webp"], check=True)
             parts.append((picture_chunks(f"{path}.webp"), milliseconds))
         with open(f"{self.out}/studio.webp", "wb") as file:
             file.write(animation(parts, *map(int, WIDE.split("x"))))
