@@ -57,7 +57,7 @@ static int was_warned_about(Sdl *sdl, const ParsedPigment *pigment)
 
 void check_albedo(Sdl *sdl, const Texture *texture)
 {
-    ParsedPigment *pigment = (ParsedPigment *)texture->pigment;
+    ParsedPigment *pigment = (ParsedPigment *)parsed_pigment(texture->pigment);
     Brightest found = {.share = LARGEST_ALBEDO};
     if (!pigment->line || finish_is_emitter(texture->finish))
         return;

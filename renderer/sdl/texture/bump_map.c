@@ -126,7 +126,7 @@ static void load_colors(Sdl *sdl, BumpMap *map)
 
 void load_bump_map(Sdl *sdl, const BumpMap *loaded)
 {
-    ParsedBumpMap *map = (ParsedBumpMap *)loaded; /* it is this scene's own */
+    ParsedBumpMap *map = (ParsedBumpMap *)parsed_bump_map(loaded); /* it is this scene's own */
     Scene *scene = sdl_scene(sdl);
     if (map->map.heights)
         return;

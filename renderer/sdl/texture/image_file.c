@@ -149,7 +149,7 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
     if (map->texture)
         return;
     for (int i = 0; i < scene->nimages; i++)
-        if (same_image(sdl, (ParsedImage *)scene->images[i], image)) {
+        if (same_image(sdl, parsed_image(scene->images[i]), image)) {
             map->texture = scene->images[i]->texture;
             map->width = scene->images[i]->width;
             map->height = scene->images[i]->height;
@@ -188,7 +188,7 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
 void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light)
 {
     if (pigment->kind == PIGMENT_IMAGE)
-        load_image(sdl, (ParsedImage *)pigment->image, is_light);
+        load_image(sdl, (ParsedImage *)parsed_image(pigment->image), is_light);
     for (int i = 0; i < pigment->map.count; i++)
         if (pigment->map.entries[i].pigment)
             load_pigment_images(sdl, pigment->map.entries[i].pigment, is_light);

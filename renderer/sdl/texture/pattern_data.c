@@ -95,7 +95,7 @@ static void parse_image_field(Sdl *sdl, ParsedPigment *pigment)
     gaps_join(&pigment->gaps, &of->gaps);
     int use_alpha = 0;
     if (of->pigment.kind == PIGMENT_IMAGE) {
-        ParsedImage *image = (ParsedImage *)of->pigment.image;
+        ParsedImage *image = (ParsedImage *)parsed_image(of->pigment.image);
         use_alpha = image->use_alpha;
         image->working = 0;
         if (!image->colorspace[0])
