@@ -18,7 +18,7 @@ build=${BUILD:-build} here=tests/bench/render
 case $build in /*) absolute=$build ;; *) absolute=$PWD/$build ;; esac
 PATH=$absolute/bin:$PATH
 work=$build/bench/render out=$build/bench/render.txt
-turns=${BENCH_TURNS:-3} size=${BENCH_SIZE:-512}
+turns=${BENCH_TURNS:-5} size=${BENCH_SIZE:-512}
 error_size=${BENCH_ERROR_SIZE:-256} reference_spp=${BENCH_REFERENCE_SPP:-2048}
 artist=${RETEX_SHARED:-../shared}/scenes/living-room-bitterli
 scenes=${BENCH_SCENES:-cornell interior artists-room} left_out=''
