@@ -1,17 +1,14 @@
 /* retex-pack: compress a set to a pack, or decompress a pack. See retex-pack(1). */
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <retex/host/set_build.h>
 #include <retex/output_file.h>
 #include <retex/pack.h>
 #include <retex/set_file.h>
-#include <retex/web.h>
 
 #include "common/cli.h"
-#include "common/output_folder.h"
+#include "pack/page.h"
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},
@@ -24,6 +21,7 @@ static const CliOption options[] = {
     {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
+    {"preset", 0, "FILE", "the look that the page begins with, as of retex-combine --save-preset", 0},
     {"web-lamps", 0, "N", "lamps that visitors can change; default 4, the dimmest others join `rest`", 0},
     {"web-smaller", 0, "N,...", "rooms beside it, 2, 3, 4, 6 or 8 times smaller, for small screens", 0},
     {0},
@@ -37,7 +35,7 @@ typedef struct Job {
     int web_smaller[RETEX_WEB_SMALLER];
     uint64_t memory; /* bytes */
     int threads;
-    const char *input, *stats, *web;
+    const char *input, *stats, *web, *preset;
 } Job;
 
 /* Scales, divided by commas. */
@@ -79,6 +77,8 @@ static void parse(Cli *cli, Job *job)
             job->no_lamps = 1;
         } else if (strcmp(option->name, "web") == 0) {
             job->web = cli->value;
+        } else if (strcmp(option->name, "preset") == 0) {
+            job->preset = cli->value;
         } else if (strcmp(option->name, "web-lamps") == 0) {
             job->web_lamps = (int)cli_integer(cli, option, 1, RETEX_PARAMETERS_MAX);
         } else if (strcmp(option->name, "web-smaller") == 0) {
@@ -109,6 +109,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless, --levels nor --stats");
     if (job->web_lamps && (!job->web || job->no_lamps))
         cli_die(cli, "--web-lamps is of --web, and of sets that keep their lamps");
+    if (job->preset && !job->web)
+        cli_die(cli, "--preset is of --web");
     if (*job->web_smaller && !job->web)
         cli_die(cli, "--web-smaller is of --web");
     job->threads = cli->threads;
@@ -180,39 +182,6 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
         cli_die(cli, "--stats: %s", err.message);
 }
 
-/* The player's files, embedded by the build. */
-typedef struct PlayerFile {
-    const char *name;
-    const unsigned char *data;
-    size_t bytes;
-} PlayerFile;
-extern const PlayerFile retex_player_files[]; /* ends with {0} */
-
-/* Sets bits of *added, by file: it was not there before. */
-static int write_player(const char *folder, unsigned *added, RetexError *err)
-{
-    int code = 0;
-    for (int i = 0; retex_player_files[i].name && !code; i++) {
-        const PlayerFile *file = &retex_player_files[i];
-        char path[PATH_MAX];
-        snprintf(path, sizeof path, "%s/%s", folder, file->name);
-        const int is_new = access(path, F_OK) != 0;
-        code = retex_file_write(path, file->data, file->bytes, err);
-        *added |= (unsigned)(is_new && !code) << i;
-    }
-    return code;
-}
-
-static void remove_player(const char *folder, unsigned added)
-{
-    for (int i = 0; retex_player_files[i].name; i++) {
-        char path[PATH_MAX];
-        snprintf(path, sizeof path, "%s/%s", folder, retex_player_files[i].name);
-        if (added >> i & 1)
-            unlink(path);
-    }
-}
-
 /* Read the smaller set of a pack that --level asks for. */
 static int read_level(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 {
@@ -240,61 +209,25 @@ static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
     return code;
 }
 
-/* A folder for browsers: the player, and the set as it reads it. The manifest comes last, so an older room stays whole,
- * at most with a newer player, until the new one is. */
-typedef struct Notes {
-    char text[2 + RETEX_WEB_SMALLER][2400];
-    int count;
-} Notes;
-
-static void keep_note(void *context, const char *text)
-{
-    Notes *notes = context;
-    if (notes->count < 2 + RETEX_WEB_SMALLER)
-        snprintf(notes->text[notes->count++], sizeof notes->text[0], "%s", text);
-}
-
 static int run_web(Cli *cli, const Job *job)
 {
-    Notes notes = {0};
-    RetexWebParams params = RETEX_WEB_INIT;
-    RetexWebBytes bytes = {0};
+    Page page = {job->web, job->preset, RETEX_WEB_INIT};
     RetexError err = {0};
     RetexSet *set = NULL;
-    char manifest[PATH_MAX];
-    params.quality = job->quality_given ? job->params.quality : params.quality;
-    params.lamps = job->web_lamps ? job->web_lamps : params.lamps;
-    memcpy(params.smaller, job->web_smaller, sizeof params.smaller);
-    params.note = keep_note;
-    params.note_context = &notes;
-    if (snprintf(manifest, sizeof manifest, "%s/room.json", job->web) >= (int)sizeof manifest - RETEX_NAME_MAX)
-        cli_die(cli, "--web: the name of the folder is too long");
+    page.params.quality = job->quality_given ? job->params.quality : page.params.quality;
+    page.params.lamps = job->web_lamps ? job->web_lamps : page.params.lamps;
+    memcpy(page.params.smaller, job->web_smaller, sizeof page.params.smaller);
     cli_input(cli, job->input, "a set, as from retex-render");
     cli_reads(cli, "the set", job->input);
-    cli_writes(cli, "--web", manifest);
-    const int existed = access(job->web, F_OK) == 0;
+    page_announce(cli, &page);
     int code = open_set(cli, job, &set, &err);
     if (!code) {
         cli_check_pixels(cli, set, job->input);
-        code = output_make_folders(manifest, &err);
+        code = page_write(cli, &page, job->input, set, &err);
     }
-    unsigned added = 0;
-    if (!code)
-        code = write_player(job->web, &added, &err);
-    if (!code)
-        code = retex_web_write(set, job->web, &params, &bytes, cli->threads, &err);
     retex_set_close(&set);
     if (code)
-        remove_player(job->web, added);
-    if (code && !existed)
-        rmdir(job->web);
-    if (code)
         cli_fail(cli, &err);
-    cli_info(cli, "set %s: %.0f bytes", job->input, cli_file_size(job->input));
-    cli_info(cli, "folder %s: %zu bytes, %zu until the picture, %zu until the first target", job->web, bytes.all,
-             bytes.still, bytes.first);
-    for (int i = 0; i < notes.count; i++)
-        cli_info(cli, "%s", notes.text[i]);
     return cli_close(cli, CLI_OK);
 }
 
@@ -306,8 +239,8 @@ int main(int argc, char **argv)
         .argc = argc,
         .argv = argv,
         .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
-                 "       retex-pack SET [--quality 1..100] [--web-lamps N] [--web-smaller N,...]\n"
-                 "                  --web DIR\n"
+                 "       retex-pack SET [--quality 1..100] [--preset FILE] [--web-lamps N]\n"
+                 "                  [--web-smaller N,...] --web DIR\n"
                  "       retex-pack --unpack FILE.retex -o SET.exr",
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "

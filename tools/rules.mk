@@ -106,7 +106,10 @@ $(BUILD)/gen/player.c: $(PLAYER) tools/rules.mk
 $(BUILD)/obj/gen/player.o: $(BUILD)/gen/player.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CFLAGS_ALL) -c $< -o $@
-$(BUILD)/bin/retex-pack: $(BUILD)/obj/gen/player.o
+PACK_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/pack/*.c)) $(BUILD)/obj/gen/player.o
+$(BUILD)/bin/retex-pack: $(BUILD)/obj/tools/retex-pack.o $(PACK_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
 COMBINE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/combine/*.c))
 $(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 
+from browser import serve
 from drive import TOP, Server, Studio, result
 from page import finish
 
@@ -89,14 +90,33 @@ def play(page, server):
     page.go("#step-take")
     page.go("#make-picture")
     page.wait("document.querySelector('.card a.button[download]')")
+    page.go("#make-page")
+    page.wait("document.querySelector('#open-page')")
     page.shot("studio-take")
     page.run("document.querySelector('#commands').open = true")
-    line = page.run("document.querySelector('#commands pre').textContent").strip().splitlines()[-1]
+    lines = page.run("document.querySelector('#commands pre').textContent").splitlines()
+    [line] = [line for line in lines if line.startswith("retex-combine")]
     subprocess.run(["sh", "-c", line], cwd=server.work, check=True)
     made = f"{server.work}/{server.folder}/pictures"
     result(filecmp.cmp(f"{made}/{os.listdir(made)[0]}", f"{server.work}/{server.folder}/picture.png", shallow=False),
            "the command that is shown makes the same file")
+    [line] = [line for line in lines if line.startswith("retex-pack")]
+    web = page.run("document.querySelector('#page-title ~ .path').textContent")
+    os.rename(f"{server.work}/{web}", f"{server.work}/taken")
+    subprocess.run(["sh", "-c", line], cwd=server.work, check=True)
+    same = subprocess.run(["diff", "-r", "taken", web], cwd=server.work, check=False).returncode == 0
+    result(same, "and the other one the same page")
     result(not page.trouble(), "nothing went wrong on the way")
+
+
+def taken_away(page, server):
+    """The page that was made, on a web server that knows nothing of the studio."""
+    page.open(serve(f"{server.work}/taken"))
+    page.wait("document.querySelector('retex-room').getState().textures.Floor")
+    floor = page.room("getState()")["textures"]["Floor"]
+    result(floor["source"].startswith("textures/damask-") and floor["width"] == "0.4m" and page.message() == "",
+           f"a page that is taken away begins with its look: {floor}")
+    page.shot("studio-taken")
 
 
 def others(page, server):
@@ -142,6 +162,7 @@ def main():
             light_and_render(page, server)
             play(page, server)
             others(page, server)
+            taken_away(page, server)
         finally:
             page.close()
             result(server.close() == 0, "a signal ends the server")

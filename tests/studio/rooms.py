@@ -114,6 +114,8 @@ def walk_room(page, server, name, row, clean):
     walk.panel()
     page.go("#make-picture")
     walk.stage("picture", "document.querySelector('.card a.button[download]')", 300)
+    page.go("#make-page")
+    walk.stage("page to take away", "document.querySelector('#open-page')", 300)
     walk.shot("take")
     wrong = page.trouble()
     person = walk.told()
@@ -122,10 +124,13 @@ def walk_room(page, server, name, row, clean):
     size = render[render.index("--size") + 1], render[render.index("--spp") + 1]
     result(not wrong and size == ("1280x720", "64") and "--denoise" in render and person < 300,
            f"{name}: another floor and wall, in {person} s of a person")
-    made = glob.glob(f"{server.work}/{server.folder}/pages/*")
-    page.open(serve(made[0]))
+    [made] = glob.glob(f"{server.work}/{server.folder}/web/*")
+    page.open(serve(made))
+    page.until("Object.keys(document.querySelector('retex-room').getState().textures).length", 2)
     walk.shot("page")
-    result(sorted(page.room("targets")) == ["Floor", "Wall"] and page.message() == "", f"{name}: its page is opened from a web server")
+    sources = [page.room("getState()")["textures"][target]["source"] for target in ("Floor", "Wall")]
+    result(sources[0].startswith(f"textures/{FLOOR}") and sources[1].startswith(f"textures/{WALL}") and page.message() == "",
+           f"{name}: its page is opened from a web server, with {sources}")
 
 
 def model_of(folder, name):

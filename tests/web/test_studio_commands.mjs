@@ -39,9 +39,11 @@ test("words of a shell are read by a shell as they were", () => {
 test("the commands of a project, as they were run", () => {
   const set = "my room.glb.studio/renders/1.exr", done = { ...room, renders: [{ set, args: c.renderArgs(room, set), done: true }], look: "Floor=tomato" };
   const lines = c.commandsOf(done).map((l) => l.line);
-  same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-pack", "retex-combine"]);
+  same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-combine", "retex-pack"]);
+  same(lines.slice(2).map((l) => l.replaceAll("my room.glb.studio", "S")), ["retex-combine -q 'S/renders/1.exr' --texture Floor=tomato -o 'S/picture.png' --save-preset 'S/look.json'",
+    "retex-pack -q 'S/renders/1.exr' --preset 'S/look.json' --web-smaller 2,4 --web 'S/web/1'"]);
+  same(c.commandsOf({ ...emptyProject("x.retex") }).map((l) => l.line), ["retex-combine -q x.retex -o x.retex.studio/picture.png", "retex-pack -q x.retex --web x.retex.studio/web/x"]);
   same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.glb.studio/renders/1.exr'")], [false, false, true]);
-  same(c.commandsOf({ ...emptyProject("x.exr") }).map((l) => l.line.split(" ")[0]), ["retex-pack", "retex-combine"]);
 });
 
 test("addresses of files, and back", () => {

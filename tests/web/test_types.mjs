@@ -58,7 +58,7 @@ test("JSX of React", () => {
   same(errors("page.tsx", `import type { RetexRoom } from "retex-room";
 import type { RefObject } from "react";
 const ref: RefObject<RetexRoom> = { current: null };
-export const good = <retex-room id="one" ref={ref} src="room/" textures="a.jpg #f80" panel="closed" no-link="" />;
+export const good = <retex-room id="one" ref={ref} src="room/" textures="a.jpg #f80" preset="look.json" panel="closed" no-link="" />;
 export const wrong = <retex-room src={3} />;
 export const odd = <retex-room panel="open" />;
 export const unknown = <retex-house />;

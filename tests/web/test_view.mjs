@@ -214,6 +214,37 @@ test("the light of lamps is loaded once, when one needs it, and again after it f
   same(put, ["image", "image"]); // those of a picture in which a lamp is off
 });
 
+test("a room begins with its preset, unless the address has a state", async () => {
+  const location = { hash: "", protocol: "https:", origin: "https://x.org", href: "https://x.org/shop/room.html" }, asked = [];
+  const presets = { "https://x.org/shop/room/look.json": { "retex-preset": 1, edit: "Floor=a b/oak%253B.jpg;Floor.tiles=x.jpg,/y.jpg;over:Floor=https://y.org/z.png;Wall=tan;Wall.finish=m.png;light:Lamp=2" } };
+  const fetch = async (url) => {
+    asked.push(String(url));
+    return presets[url] ? new Response(JSON.stringify(presets[url])) : new Response("", { status: 404 });
+  };
+  const { RetexRoom } = player({ location, document: { baseURI: location.href }, fetch });
+  const put = [], failed = [], attributes = { preset: "room/look.json" }, room = element(RetexRoom, {}, { id: "", renderer: {}, abort: new AbortController(), textures: [],
+    hasAttribute: (name) => name in attributes, getAttribute: (name) => attributes[name], setState: async (state) => put.push(state), fail: (message) => failed.push(message) });
+  const begin = () => room.begin.call(Object.assign(room, { emit: () => {}, $: () => ({ classList: { add() {} } }) }));
+  await begin();
+  const [{ textures, lamps }] = put;
+  same([textures.Floor.source, textures.Floor.tiles, textures["over:Floor"].source], ["room/a%20b/oak%253B.jpg", "room/x.jpg,https://x.org/y.jpg", "https://y.org/z.png"]);
+  same([textures.Wall.source, textures.Wall.finish, lamps], ["tan", "room/m.png", { Lamp: "2" }]);
+  location.hash = "#room=Floor=red";
+  await begin();
+  same([put.length, put[1].textures.Floor.source, asked.length], [2, "red", 1]);
+  attributes["no-link"] = "";
+  await begin();
+  same([put.length, put[2].textures.Wall.source], [3, "tan"]);
+  attributes.preset = "away.json";
+  await begin();
+  presets["https://x.org/shop/away.json"] = { "retex-preset": 2, edit: "" };
+  await begin();
+  same(failed, ["away.json, the room's look, could not be shown: away.json is missing (status 404).", "away.json, the room's look, could not be shown: it is no preset of version 1."]);
+  delete attributes.preset;
+  await begin();
+  same(put.length, 3);
+});
+
 test("links have the state of this room beside others, and the state comes back", async () => {
   const location = { href: "https://x.org/p?q=1#room=%7B%7D&other%3D=1&part", hash: "" };
   const { RetexRoom, plainTexture } = player({ location });

@@ -190,6 +190,29 @@ export function parseEdit(text) {
   return { textures, light, lamps, finishes };
 }
 
+/* A preset of retex-edit(5) as a state. Its pictures are meant from its address; the page's own folder, which a URL ends with,
+ * is left out of theirs, so that links stay short. */
+export function parsePreset(text, address, folder) {
+  let preset;
+  try {
+    preset = JSON.parse(text);
+  } catch {
+    preset = null;
+  }
+  if (preset?.["retex-preset"] !== 1 || typeof preset.edit !== "string") throw new Error("it is no preset of version 1.");
+  const from = (name) => {
+    const { href } = new URL(/^[a-z][a-z\d+.-]*:/i.test(name) ? name : name.split("/").map(encodeURIComponent).join("/"), address);
+    return href.startsWith(folder) ? href.slice(folder.length) : href;
+  };
+  const state = parseEdit(preset.edit);
+  for (const said of Object.values(state.textures)) {
+    if (!parseColor(said.source)) said.source = from(said.source);
+    if (said.finish) said.finish = from(said.finish);
+    if (said.tiles) said.tiles = said.tiles.split(",").map(from).join();
+  }
+  return state;
+}
+
 export const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
 
 /* The text of an edit that says what a state does. */

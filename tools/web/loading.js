@@ -121,8 +121,8 @@ export const withLoading = (Base) => class extends Base {
     this.$("canvas").classList.add("shown");
     this.textures.forEach((_, i) => this.put(i));
     this.emit("retex-ready", { targets: this.targets });
-    if (!kept) await this.restore();
-    else await this.loadLamps();
+    if (kept) await this.loadLamps();
+    else if (!(await this.restore()) && this.hasAttribute("preset")) await this.putPreset();
   }
 
   /* The light of single lamps, once the room is drawn and needs it. */

@@ -126,6 +126,8 @@ export interface RetexRoomAttributes {
   src?: string;
   /** URLs of pictures, and colours, to offer, separated by blanks. */
   textures?: string;
+  /** The URL of a preset, as of retex-combine --save-preset: how the room looks at first. */
+  preset?: string;
   panel?: "closed";
   "no-link"?: "" | boolean;
 }

@@ -1,6 +1,7 @@
 // ---- states and links ----
 
-import { editText, hasGrout, layerKey, parseEdit } from "./edit.js";
+import { editText, hasGrout, layerKey, parseEdit, parsePreset } from "./edit.js";
+import { fetchBytes } from "./files.js";
 import { OVERS_MOST } from "./glsl.js";
 import { finishesAsRendered, indexNamed } from "./lamps.js";
 import { LAYING } from "./look.js";
@@ -74,15 +75,27 @@ export const withState = (Base) => class extends Base {
     return url.href;
   }
 
-  /* Take the state that the page's address has. */
+  /* Take the state that the page's address has. False: it has none. */
   async restore() {
     const part = location.hash.slice(1).split("&").find((text) => text.startsWith(this.key));
-    if (!part || !this.renderer || this.hasAttribute("no-link")) return;
+    if (!part || !this.renderer || this.hasAttribute("no-link")) return false;
     try {
       const text = decodeURIComponent(part.slice(this.key.length));
       await this.setState(text.startsWith("{") ? JSON.parse(text) : parseEdit(text)); // links were JSON once
     } catch (error) {
       this.fail(`The link's textures could not be restored: ${error.message}`);
+    }
+    return true;
+  }
+
+  /* Take the look that the room begins with, that of the attribute `preset`. */
+  async putPreset() {
+    const address = new URL(this.getAttribute("preset"), document.baseURI);
+    try {
+      const text = new TextDecoder().decode(await fetchBytes(address, this.abort.signal, "no-cache"));
+      await this.setState(parsePreset(text, address, new URL(".", document.baseURI).href));
+    } catch (error) {
+      this.fail(`${address.pathname.split("/").at(-1)}, the room's look, could not be shown: ${error.message}`);
     }
   }
 };

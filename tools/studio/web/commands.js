@@ -16,8 +16,10 @@ export function nextSet({ model, renders }) {
   return `${rendersOf(model)}/${Math.max(0, ...numbers) + 1}.exr`;
 }
 
-/* Of sets that were rendered elsewhere, too. */
-export const pageOf = (model, set) => `${folderOf(model)}/pages/${set.replace(/^.*\//, "").replace(/\.[^.]+$/, "")}`;
+/* Pages of a set, of those too that were rendered elsewhere: what the step Play shows, and what is taken away. */
+const wordOfSet = (set) => set.replace(/^.*\//, "").replace(/\.[^.]+$/, "");
+export const pageOf = (model, set) => `${folderOf(model)}/pages/${wordOfSet(set)}`;
+export const webOf = (model, set) => `${folderOf(model)}/web/${wordOfSet(set)}`;
 
 export function importArgs({ model, import: how }) {
   const said = ["camera", "variant", "unit", "up", "lights", "sky"].filter((key) => how[key]);
@@ -68,6 +70,10 @@ export function trialArgs(project, width, file) {
 export const lampListArgs = (project) => ["--list-lamps", ...cameraArgs(project), sceneOf(project)];
 export const finishListArgs = (project) => ["--list-finishes", sceneOf(project)];
 export const webArgs = (set, folder) => ["-q", set, "--web", folder];
+/* A page for others: with a look to begin with, and smaller rooms for small screens. A pack has none. */
+export const maySmaller = (set) => !set.endsWith(".retex");
+export const pageArgs = (set, folder, preset, smaller) =>
+  ["-q", set, ...(preset ? ["--preset", preset] : []), ...(smaller ? ["--web-smaller", "2,4"] : []), "--web", folder];
 export const packArgs = (set, file) => ["-q", set, "-o", file];
 export const pictureArgs = (set, look, file, size = "") =>
   ["-q", set, ...lookArgs(look), ...(size ? ["--size", size] : []), "-o", file];
@@ -111,7 +117,8 @@ export function commandsOf(project) {
   if (kindOf(project.model) !== "set") {
     add("Render", "retex-render", withoutProgress(done?.args || renderArgs(project, set)));
   }
-  add("Make the page", "retex-pack", webArgs(set, pageOf(project.model, set)));
-  add("Make the picture", "retex-combine", pictureArgs(set, project.look, `${folderOf(project.model)}/picture.png`));
+  const preset = project.look ? `${folderOf(project.model)}/look.json` : "", picture = pictureArgs(set, project.look, `${folderOf(project.model)}/picture.png`);
+  add("Make the picture", "retex-combine", preset ? [...picture, "--save-preset", preset] : picture);
+  add("Make the page", "retex-pack", pageArgs(set, webOf(project.model, set), preset, maySmaller(set)));
   return list;
 }

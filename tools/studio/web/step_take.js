@@ -1,7 +1,7 @@
 /* Take away: pictures, files and pages for others. */
 import * as api from "./api.js";
-import { catalogueArgs, catalogueTable, commandsOf, folderOf, lookWithout, packArgs, pageOf, pictureArgs } from "./commands.js";
-import { button, choice, download, field, h, icon, iconButton, ICONS } from "./dom.js";
+import { catalogueArgs, catalogueTable, commandsOf, folderOf, lookWithout, maySmaller, packArgs, pageArgs, pictureArgs, webOf } from "./commands.js";
+import { button, check, choice, download, field, h, icon, iconButton, ICONS } from "./dom.js";
 import { addressOf, presetOf, readLook } from "./look.js";
 import { freeName } from "./project.js";
 import { widthOf } from "./widths.js";
@@ -11,7 +11,7 @@ export const isOpen = (app) => !!app.set;
 export const isDone = () => false;
 export const enter = (app) => app.attempt(() => app.player.show());
 
-const away = (app) => (app.away ||= { format: "png", size: "" });
+const away = (app) => (app.away ||= { format: "png", size: "", smaller: true });
 const stamp = () => new Date().toISOString().slice(0, 19).replace(/[:T]/g, "-");
 
 /* Do it, with a note while it is done; the result is a file to be downloaded. */
@@ -29,12 +29,13 @@ const make = (app, key, action) => app.attempt(async () => {
 
 const link = (path, text) => h("a", { href: addressOf(path), download: path.split("/").at(-1), class: "button" }, icon(ICONS.take), h("span", {}, text));
 
-function card(app, key, name, about, body, label, action) {
+/* shown: what leads to what was made. */
+function card(app, key, name, about, body, label, action, shown = (file) => link(file, "Download")) {
   const { busy } = away(app), done = away(app)[key];
   return h("section", { class: "card", "aria-labelledby": `${key}-title` }, h("div", {},
     h("h3", { id: `${key}-title` }, name), h("p", { class: "hint" }, about), body,
     h("div", { class: "buttons" }, button(busy === key ? "One moment…" : label, () => make(app, key, action), { id: `make-${key}`, disabled: !!busy }),
-      done ? link(done, "Download") : null)));
+      done ? shown(done) : null)));
 }
 
 function picture(app) {
@@ -63,11 +64,17 @@ function pack(app) {
 }
 
 function page(app) {
-  const folder = pageOf(app.project.model, app.set);
-  return h("section", { class: "card", "aria-labelledby": "page-title" }, h("div", {}, h("h3", { id: "page-title" }, "Web page"),
-    h("p", { class: "hint" }, "Visitors of a web site can change the textures themselves. Put this folder on any web server:"),
-    h("p", { class: "path" }, folder),
-    h("a", { href: `${addressOf(folder)}/index.html`, target: "_blank", class: "button", rel: "noopener" }, h("span", {}, "Look at the page"))));
+  const state = away(app), { look } = app.project, folder = webOf(app.project.model, app.set), mayBeSmaller = maySmaller(app.set);
+  const body = [
+    state.page ? h("p", { class: "path" }, state.page) : null,
+    mayBeSmaller ? check("page-smaller", "Smaller rooms beside it, for phones", state.smaller, (on) => (state.smaller = on)) : null,
+  ];
+  const open = (made) => h("a", { href: `${addressOf(made)}/index.html`, id: "open-page", target: "_blank", class: "button", rel: "noopener" }, h("span", {}, "Look at the page"));
+  return card(app, "page", "Web page", "A folder for any web server. Visitors see the room as it looks now, and change the textures themselves.", body, "Make the page", async () => {
+    const preset = look ? await api.upload("look.json", new Blob([presetOf(look, app.model.folder)])) : "";
+    await app.runWell("retex-pack", pageArgs(app.set, folder, preset, mayBeSmaller && state.smaller), "Make the page");
+    return folder;
+  }, open);
 }
 
 /* All pictures of the folder that is open in Play, one after the other on the target. */
