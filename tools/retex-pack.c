@@ -8,7 +8,7 @@
 #include <retex/set_file.h>
 
 #include "common/cli.h"
-#include "pack/page.h"
+#include "page/page.h"
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},

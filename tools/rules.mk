@@ -106,8 +106,8 @@ $(BUILD)/gen/player.c: $(PLAYER) tools/rules.mk
 $(BUILD)/obj/gen/player.o: $(BUILD)/gen/player.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CFLAGS_ALL) -c $< -o $@
-PACK_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/pack/*.c)) $(BUILD)/obj/gen/player.o
-$(BUILD)/bin/retex-pack: $(BUILD)/obj/tools/retex-pack.o $(PACK_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+PAGE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/page/*.c)) $(BUILD)/obj/gen/player.o
+$(BUILD)/bin/retex-pack: $(BUILD)/obj/tools/retex-pack.o $(PAGE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 

@@ -80,7 +80,7 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7
     11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
-back=$(rooms tools 1:common 2:batch 2:http 2:decode 2:import 3:combine 3:serve 3:studio)
+back=$(rooms tools 1:common 2:batch 2:http 2:decode 2:import 3:combine 3:page 3:serve 3:studio)
 [ -z "$back" ] || complain "rooms of tools, from one that stands later:
 $back"
 back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light \

@@ -42,7 +42,7 @@ test("the commands of a project, as they were run", () => {
   same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-combine", "retex-pack"]);
   same(lines.slice(2).map((l) => l.replaceAll("my room.glb.studio", "S")), ["retex-combine -q 'S/renders/1.exr' --texture Floor=tomato -o 'S/picture.png' --save-preset 'S/look.json'",
     "retex-pack -q 'S/renders/1.exr' --preset 'S/look.json' --web-smaller 2,4 --web 'S/web/1'"]);
-  same(c.commandsOf({ ...emptyProject("x.retex") }).map((l) => l.line), ["retex-combine -q x.retex -o x.retex.studio/picture.png", "retex-pack -q x.retex --web x.retex.studio/web/x"]);
+  same(c.commandsOf({ ...emptyProject("x.retex"), renders: [{ set: "x.retex", args: [], done: true }] }).map((l) => l.line), ["retex-combine -q x.retex -o x.retex.studio/picture.png", "retex-pack -q x.retex --web x.retex.studio/web/x"]);
   same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.glb.studio/renders/1.exr'")], [false, false, true]);
 });
 

@@ -228,7 +228,7 @@ test("a room begins with its preset, unless the address has a state", async () =
   await begin();
   const [{ textures, lamps }] = put;
   same([textures.Floor.source, textures.Floor.tiles, textures["over:Floor"].source], ["room/a%20b/oak%253B.jpg", "room/x.jpg,https://x.org/y.jpg", "https://y.org/z.png"]);
-  same([textures.Wall.source, textures.Wall.finish, lamps], ["tan", "room/m.png", { Lamp: "2" }]);
+  same([textures.Wall.source, textures.Wall.finish, { ...lamps }], ["tan", "room/m.png", { Lamp: "2" }]);
   location.hash = "#room=Floor=red";
   await begin();
   same([put.length, put[1].textures.Floor.source, asked.length], [2, "red", 1]);

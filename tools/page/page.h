@@ -1,7 +1,7 @@
 /* What retex-pack --web writes: a folder with a page, the player, the set as it reads it, and the look that the page
  * begins with. */
-#ifndef RETEX_PACK_PAGE_H
-#define RETEX_PACK_PAGE_H
+#ifndef RETEX_PAGE_H
+#define RETEX_PAGE_H
 
 #include <retex/web.h>
 

@@ -1,6 +1,6 @@
 /* Files of a folder that were not there before, to be removed where it cannot be completed. */
-#ifndef RETEX_PACK_ADDED_H
-#define RETEX_PACK_ADDED_H
+#ifndef RETEX_PAGE_ADDED_H
+#define RETEX_PAGE_ADDED_H
 
 enum { ADDED_MOST = 256 };
 

@@ -1,5 +1,5 @@
 /* See added.h. */
-#include "pack/added.h"
+#include "page/added.h"
 
 #include <stdio.h>
 #include <stdlib.h>

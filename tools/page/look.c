@@ -1,5 +1,5 @@
 /* See look.h. */
-#include "pack/look.h"
+#include "page/look.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -17,6 +17,9 @@
 #include <retex/set_file.h>
 
 #define TEXTURES "textures"
+#define DRAWING ".svg"
+/* Letters of names that need no escapes in addresses. */
+#define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_"
 enum { STEM_MOST = 60 }; /* bytes of the name that a copy keeps */
 
 /* ---- reading ---- */
@@ -79,19 +82,42 @@ int look_read(RetexEdit *edit, const Cli *cli, const char *preset, const RetexSe
 
 /* ---- pictures ---- */
 
+static int too_long(const char *folder, RetexError *err)
+{
+    return retex_fail(err, RETEX_EINVAL, "the name of the folder is too long: %.200s…", folder);
+}
+
+static int no_memory(RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "not enough memory for the names of files");
+}
+
 typedef struct Copies {
     const Cli *cli;
     const char *folder;
     Added *added;
 } Copies;
 
-static int is_of_browsers(const char *file)
+/* The ending of a picture that browsers read, by its content; "" of others. Drawings are known by their name. */
+static int ending_of(const char **ending, const Copies *copies, const char *file, RetexError *err)
 {
-    static const char *const endings[] = {".jpg", ".jpeg", ".png", ".webp", ".avif", ".gif", ".bmp", ".svg"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (cli_ends_with(file, endings[i]))
-            return 1;
-    return 0;
+    static const struct {
+        int at;
+        const char *bytes, *ending;
+    } kinds[] = {{0, "\xff\xd8\xff", ".jpg"}, {0, "\x89PNG", ".png"}, {8, "WEBP", ".webp"},
+                 {4, "ftypavif", ".avif"},    {0, "GIF8", ".gif"},    {0, "BM", ".bmp"}};
+    char begin[16] = "";
+    int descriptor = -1;
+    const int code = retex_access_open(&copies->cli->access, file, &descriptor, err);
+    if (code)
+        return code;
+    const ssize_t bytes = pread(descriptor, begin, sizeof begin, 0);
+    close(descriptor);
+    *ending = cli_ends_with(file, DRAWING) ? DRAWING : "";
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !**ending; i++)
+        if (bytes == sizeof begin && memcmp(begin + kinds[i].at, kinds[i].bytes, strlen(kinds[i].bytes)) == 0)
+            *ending = kinds[i].ending;
+    return RETEX_OK;
 }
 
 /* FOLDER/textures/STEM-SUM.ENDING: a name that needs no escapes in addresses, and may be kept by caches for ever. */
@@ -102,10 +128,7 @@ static int name_copy(char path[PATH_MAX], const char *folder, const char *file, 
     char stem[STEM_MOST + 1], suffix[16];
     size_t n = 0;
     for (; n < length && n < STEM_MOST; n++)
-        stem[n] = (unsigned char)name[n] < 128 && (strchr("-_", name[n]) || ((name[n] | 32) >= 'a' && (name[n] | 32) <= 'z') ||
-                                                   (name[n] >= '0' && name[n] <= '9'))
-                      ? name[n]
-                      : '_';
+        stem[n] = strchr(LETTERS, name[n]) ? name[n] : '_';
     stem[n] = '\0';
     snprintf(suffix, sizeof suffix, "-%08x", sum);
     if (n > strlen(suffix) && strcmp(stem + n - strlen(suffix), suffix) == 0) /* it is such a copy */
@@ -156,30 +179,49 @@ static int convert(const Copies *copies, const char *path, const char *file, con
     return code;
 }
 
-/* Copy the picture that name, one of the edit, is. file: where it is now, of a folder that of its base colour. is_map: its
- * numbers are no colours. */
+/* Give a copy the name that its content has. */
+static int place_copy(const Copies *copies, char path[PATH_MAX], const char *file, const char *ending, RetexError *err)
+{
+    char made[PATH_MAX];
+    RetexFileSum sum;
+    strcpy(made, path);
+    int code = retex_file_sum(&sum, made, NULL, err);
+    if (!code && !name_copy(path, copies->folder, file, sum.crc, ending))
+        code = too_long(copies->folder, err);
+    if (!code && !added_note(copies->added, path))
+        code = no_memory(err);
+    if (!code && rename(made, path))
+        code = retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(errno));
+    return code;
+}
+
+/* Copy the picture that name, one of the edit, is. file: where it is now, of a folder that of its base colour.
+ * is_map: its numbers are no colours. */
 static int copy_picture(const Copies *copies, char *name, size_t size, const char *file, const char *colorspace,
                         int is_map, RetexError *err)
 {
-    const RetexReadParams read = {.size = sizeof read, .access = &copies->cli->access};
-    const int as_it_is = is_of_browsers(file) && (!colorspace[0] || strcasecmp(colorspace, "sRGB") == 0);
-    const int is_drawing = cli_ends_with(file, ".svg");
+    RetexReadParams read = RETEX_READ_INIT;
+    const char *ending = "";
     char path[PATH_MAX];
-    RetexFileSum sum;
-    if (is_map && !as_it_is)
-        return retex_fail(err, RETEX_EUNSUPPORTED, "a page cannot show the map of finishes %s: it must be PNG or JPEG", file);
-    int code = is_drawing ? RETEX_OK : retex_image_read_check(file, &read, err);
+    read.access = &copies->cli->access;
+    int code = ending_of(&ending, copies, file, err);
+    if (!code && strcmp(ending, DRAWING) != 0)
+        code = retex_image_read_check(file, &read, err);
+    const int as_it_is = ending[0] && (!colorspace[0] || strcasecmp(colorspace, "sRGB") == 0);
+    if (!code && is_map && !as_it_is)
+        code = retex_fail(err, RETEX_EUNSUPPORTED, "a page cannot show the map of finishes %s: it must be PNG or JPEG",
+                          file);
+    if (!code && (!name_copy(path, copies->folder, file, 0, "") || strlen(path) + strlen(".jpeg") >= size))
+        code = too_long(copies->folder, err);
+    ending = as_it_is ? ending : ".png";
     if (!code)
-        code = retex_file_sum(&sum, file, &copies->cli->access, err);
-    if (!code)
-        sum.crc = retex_bytes_sum(sum.crc, colorspace, as_it_is ? 0 : strlen(colorspace));
-    if (!code && (!name_copy(path, copies->folder, file, sum.crc, as_it_is ? strrchr(file, '.') : ".png") ||
-                  strlen(path) >= size))
-        code = retex_fail(err, RETEX_EINVAL, "the name of the folder is too long: %.200s…", copies->folder);
+        strcat(path, ending);
     if (!code && !added_note(copies->added, path))
-        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for the names of files");
+        code = no_memory(err);
     if (!code)
         code = as_it_is ? copy_bytes(copies, path, file, err) : convert(copies, path, file, colorspace, err);
+    if (!code)
+        code = place_copy(copies, path, file, ending, err);
     if (!code)
         strcpy(memset(name, 0, size), path); /* specs are compared byte by byte */
     return code;
@@ -237,14 +279,14 @@ int look_write(RetexEdit *edit, const Cli *cli, const char *folder, Added *added
     int code = RETEX_OK;
     if (has_pictures(edit)) {
         if (!path_in(path, folder, TEXTURES) || !added_note(added, path))
-            return retex_fail(err, RETEX_EINVAL, "the name of the folder is too long: %.200s…", folder);
+            return too_long(folder, err);
         if (mkdir(path, 0777) && errno != EEXIST)
             return retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", path, strerror(errno));
     }
     for (int i = 0; i < retex_edit_count(edit) && !code; i++)
         code = copy_texture(&copies, retex_edit_texture(edit, i), err);
     if (!code && (!path_in(path, folder, LOOK_FILE) || !added_note(added, path)))
-        code = retex_fail(err, RETEX_EINVAL, "the name of the folder is too long: %.200s…", folder);
+        code = too_long(folder, err);
     return code ? code : retex_preset_write(edit, path, err);
 }
 
@@ -262,11 +304,11 @@ static const char *picture_of(RetexEdit *edit, int number)
     if (texture >= retex_edit_count(edit))
         return NULL;
     const RetexTextureSpec *spec = retex_edit_texture(edit, texture);
-    return k == RETEX_TEXTURE_FILE_IMAGE     ? spec->image
-           : k == RETEX_TEXTURE_FILE_FINISH  ? spec->finish
-           : k >= RETEX_TEXTURE_FILE_LAYERS  ? spec->layers[k - RETEX_TEXTURE_FILE_LAYERS].image
-           : k >= RETEX_TEXTURE_FILE_TILES   ? spec->tiles[k - RETEX_TEXTURE_FILE_TILES]
-                                             : "";
+    return k == RETEX_TEXTURE_FILE_IMAGE    ? spec->image
+           : k == RETEX_TEXTURE_FILE_FINISH ? spec->finish
+           : k >= RETEX_TEXTURE_FILE_LAYERS ? spec->layers[k - RETEX_TEXTURE_FILE_LAYERS].image
+           : k >= RETEX_TEXTURE_FILE_TILES  ? spec->tiles[k - RETEX_TEXTURE_FILE_TILES]
+                                            : "";
 }
 
 static int is_in(RetexEdit *edit, const char *picture)

@@ -1,11 +1,11 @@
 /* The look that a page begins with: look.json, a preset of retex-edit(5), and the pictures that it names. */
-#ifndef RETEX_PACK_LOOK_H
-#define RETEX_PACK_LOOK_H
+#ifndef RETEX_PAGE_LOOK_H
+#define RETEX_PAGE_LOOK_H
 
 #include <retex/edit.h>
 
 #include "common/cli.h"
-#include "pack/added.h"
+#include "page/added.h"
 
 #define LOOK_FILE "look.json"
 

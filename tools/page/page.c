@@ -1,5 +1,5 @@
 /* See page.h. */
-#include "pack/page.h"
+#include "page/page.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -10,8 +10,8 @@
 #include <retex/output_file.h>
 
 #include "common/output_folder.h"
-#include "pack/added.h"
-#include "pack/look.h"
+#include "page/added.h"
+#include "page/look.h"
 
 #define INDEX "index.html"
 static const char SOURCE[] = "src=\".\"", WITH_LOOK[] = "src=\".\" preset=\"" LOOK_FILE "\"";
