@@ -24,8 +24,8 @@ $ retex-pack -q s.exr --preset looks/evening.json --web room; ls room room/textu
 > room:
 > textures
 > travertine-N.jpg
-$ grep -o '<retex-room.*' room/index.html; python3 -c 'import json; print(json.load(open("room/look.json"))["edit"])' | sed 's/-[0-9a-f]\{8\}[.]/-N./g; s/;/\n/g'
-> <retex-room src="." preset="look.json"></retex-room>
+$ grep -o '<retex-room.*' room/index.html | sed 's/-[0-9a-f]\{8\}[.]/-N./g'; python3 -c 'import json; print(json.load(open("room/look.json"))["edit"])' | sed 's/-[0-9a-f]\{8\}[.]/-N./g; s/;/\n/g'
+> <retex-room src="." preset="look.json" textures="textures/my__oak__-N.jpg textures/brick-N.png"></retex-room>
 > Floor=textures/my__oak__-N.jpg
 > Floor.scale=2,3
 > Floor.rotate=30

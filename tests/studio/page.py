@@ -7,8 +7,8 @@ import subprocess
 import sys
 import tempfile
 
-from browser import serve
 from drive import TOP, Server, Studio, result
+from browser import serve
 from page import finish
 
 
@@ -162,6 +162,8 @@ def main():
             light_and_render(page, server)
             play(page, server)
             others(page, server)
+            page.close()
+            page = Studio()  # a visitor's
             taken_away(page, server)
         finally:
             page.close()

@@ -216,7 +216,7 @@ test("the light of lamps is loaded once, when one needs it, and again after it f
 
 test("a room begins with its preset, unless the address has a state", async () => {
   const location = { hash: "", protocol: "https:", origin: "https://x.org", href: "https://x.org/shop/room.html" }, asked = [];
-  const presets = { "https://x.org/shop/room/look.json": { "retex-preset": 1, edit: "Floor=a b/oak%253B.jpg;Floor.tiles=x.jpg,/y.jpg;over:Floor=https://y.org/z.png;Wall=tan;Wall.finish=m.png;light:Lamp=2" } };
+  const presets = { "https://x.org/shop/room/look.json": { "retex-preset": 1, edit: "Floor=a b/oak%253B-01abcdef.jpg;Floor.tiles=x.jpg,/y.jpg;over:Floor=https://y.org/z.png;Wall=tan;Wall.finish=m.png;light:Lamp=2" } };
   const fetch = async (url) => {
     asked.push(String(url));
     return presets[url] ? new Response(JSON.stringify(presets[url])) : new Response("", { status: 404 });
@@ -227,7 +227,8 @@ test("a room begins with its preset, unless the address has a state", async () =
   const begin = () => room.begin.call(Object.assign(room, { emit: () => {}, $: () => ({ classList: { add() {} } }) }));
   await begin();
   const [{ textures, lamps }] = put;
-  same([textures.Floor.source, textures.Floor.tiles, textures["over:Floor"].source], ["room/a%20b/oak%253B.jpg", "room/x.jpg,https://x.org/y.jpg", "https://y.org/z.png"]);
+  same([textures.Floor.source, textures.Floor.tiles, textures["over:Floor"].source], ["room/a%20b/oak%253B-01abcdef.jpg", "room/x.jpg,https://x.org/y.jpg", "https://y.org/z.png"]);
+  same([textures.Floor.label, textures["over:Floor"].label, textures.Wall.label], ["oak%3B.jpg", "z.png", undefined]);
   same([textures.Wall.source, textures.Wall.finish, { ...lamps }], ["tan", "room/m.png", { Lamp: "2" }]);
   location.hash = "#room=Floor=red";
   await begin();

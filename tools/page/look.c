@@ -290,6 +290,18 @@ int look_write(RetexEdit *edit, const Cli *cli, const char *folder, Added *added
     return code ? code : retex_preset_write(edit, path, err);
 }
 
+void look_offer(char *text, size_t size, RetexEdit *edit)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < retex_edit_count(edit); i++) {
+        const RetexTextureSpec *spec = retex_edit_texture(edit, i);
+        const char *name = spec->constant ? NULL : strrchr(spec->image, '/');
+        if (name && used + strlen(TEXTURES) + strlen(name) + 2 <= size)
+            used += (size_t)snprintf(text + used, size - used, "%s" TEXTURES "%s", used ? " " : "", name);
+    }
+}
+
 int look_old(RetexEdit *old, const char *folder)
 {
     RetexError ignored = {0};

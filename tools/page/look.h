@@ -16,6 +16,10 @@ int look_read(RetexEdit *edit, const Cli *cli, const char *preset, const RetexSe
  * new names, which the edit then has. */
 int look_write(RetexEdit *edit, const Cli *cli, const char *folder, Added *added, RetexError *err);
 
+/* The pictures of targets that look_write has copied, as the attribute `textures` of a page has them: divided by
+ * blanks, as many as there is room for. */
+void look_offer(char *text, size_t size, RetexEdit *edit);
+
 /* The look that a folder has already. 0: it has none that can be read. */
 int look_old(RetexEdit *old, const char *folder);
 /* Remove what the new look of the folder, NULL where it has none, has not of an older one. */

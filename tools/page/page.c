@@ -14,7 +14,7 @@
 #include "page/look.h"
 
 #define INDEX "index.html"
-static const char SOURCE[] = "src=\".\"", WITH_LOOK[] = "src=\".\" preset=\"" LOOK_FILE "\"";
+static const char SOURCE[] = "src=\".\"";
 
 /* The player's files, embedded by the build. */
 typedef struct PlayerFile {
@@ -24,23 +24,25 @@ typedef struct PlayerFile {
 } PlayerFile;
 extern const PlayerFile retex_player_files[]; /* ends with {0} */
 
-/* The page itself, whose room begins with its look. */
-static int write_index(const char *path, const PlayerFile *file, RetexError *err)
+/* The page itself, whose room begins with its look, and offers the pictures of that. */
+static int write_index(const char *path, const PlayerFile *file, RetexEdit *look, RetexError *err)
 {
     const char *data = (const char *)file->data, *at = memmem(data, file->bytes, SOURCE, strlen(SOURCE));
-    const size_t before = (size_t)(at - data), bytes = file->bytes + strlen(WITH_LOOK) - strlen(SOURCE);
-    char *made = malloc(bytes);
-    if (!made)
+    const int before = (int)(at + strlen(SOURCE) - data), after = (int)file->bytes - before;
+    char *made = NULL, textures[4096];
+    look_offer(textures, sizeof textures, look);
+    const int bytes =
+        asprintf(&made, "%.*s preset=\"" LOOK_FILE "\"%s%s%s%.*s", before, data, textures[0] ? " textures=\"" : "",
+                 textures, textures[0] ? "\"" : "", after, data + before);
+    if (bytes < 0)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a page");
-    memcpy(made, data, before);
-    memcpy(made + before, WITH_LOOK, strlen(WITH_LOOK));
-    memcpy(made + before + strlen(WITH_LOOK), at + strlen(SOURCE), file->bytes - before - strlen(SOURCE));
-    const int code = retex_file_write(path, made, bytes, err);
+    const int code = retex_file_write(path, made, (size_t)bytes, err);
     free(made);
     return code;
 }
 
-static int write_player(const char *folder, int has_look, Added *added, RetexError *err)
+/* look: NULL: the page begins as rendered. */
+static int write_player(const char *folder, RetexEdit *look, Added *added, RetexError *err)
 {
     int code = 0;
     for (const PlayerFile *file = retex_player_files; file->name && !code; file++) {
@@ -48,8 +50,8 @@ static int write_player(const char *folder, int has_look, Added *added, RetexErr
         snprintf(path, sizeof path, "%s/%s", folder, file->name);
         if (!added_note(added, path))
             code = retex_fail(err, RETEX_ENOMEM, "not enough memory for the names of files");
-        else if (has_look && strcmp(file->name, INDEX) == 0)
-            code = write_index(path, file, err);
+        else if (look && strcmp(file->name, INDEX) == 0)
+            code = write_index(path, file, look, err);
         else
             code = retex_file_write(path, file->data, file->bytes, err);
     }
@@ -93,7 +95,7 @@ static int write_files(Cli *cli, const Page *page, const RetexSet *set, RetexEdi
     if (!code && page->preset)
         code = look_write(look, cli, page->folder, added, err);
     if (!code)
-        code = write_player(page->folder, !!page->preset, added, err);
+        code = write_player(page->folder, page->preset ? look : NULL, added, err);
     if (!code)
         code = retex_web_write(set, page->folder, &page->params, bytes, cli->threads, err);
     return code;

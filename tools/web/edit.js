@@ -206,7 +206,7 @@ export function parsePreset(text, address, folder) {
   };
   const state = parseEdit(preset.edit);
   for (const said of Object.values(state.textures)) {
-    if (!parseColor(said.source)) said.source = from(said.source);
+    if (!parseColor(said.source)) Object.assign(said, { label: said.source.replace(/^.*\//, "").replace(/-[\da-f]{8}(?=\.\w+$)/, ""), source: from(said.source) });
     if (said.finish) said.finish = from(said.finish);
     if (said.tiles) said.tiles = said.tiles.split(",").map(from).join();
   }
