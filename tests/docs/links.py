@@ -1,5 +1,4 @@
 """Links and pictures of the Markdown pages: prints each that leads nowhere, and exits with 1. links.py [FILE...]
-It prints lines that begin with the marker of a figure, too: there a comment ends the paragraph.
 
 A target is a file or folder of the repository, an anchor (#heading) of a page, or a URL, which is not opened. Anchors are
 those of GitHub: headings in lower case, without punctuation, with hyphens for blanks. Every picture in docs/pictures must
@@ -42,7 +41,6 @@ class Page:
         # What cmark did not take for a link, because its file name has a blank or its bracket no end.
         plain = re.sub(r"```(?:.|\n)*?```|`[^`\n]*`|^    .*$", "", source, flags=re.M)
         written = len(re.findall(r"\]\(", plain))
-        self.cut = sum("<!--=" in (node.text or "") for node in tree.iter(SPACE + "html_block"))
         self.broken = written - len(self.links) - len(self.pictures) + len(re.findall(r"<https?:", plain))
 
 
@@ -60,7 +58,6 @@ def main():
     shown, wrong = set(), 0
     for path, page in pages.items():
         found = [] if page.broken == 0 else [f"{abs(page.broken)} links that are none"]
-        found += [f"{page.cut} paragraphs that a figure's marker ends"] * (page.cut > 0)
         for target in page.links + page.pictures:
             if re.match(r"[a-z]+:", target):
                 continue

@@ -26,9 +26,6 @@ finds '![a](there.txt)' 'no picture there.txt'
 finds '[a](#tail-of-it)' 'no anchor #tail-of-it'
 finds '[a](#twice-2)' 'no anchor #twice-2'
 finds '[a](there too.jpg)' '1 links that are none'
-finds 'It reaches
-<!--= name -->5 dB<!--/-->.' "1 paragraphs that a figure's marker ends"
-accepts 'It reaches <!--= name -->5 dB<!--/-->.'
 accepts '[a](#the-head-of-it-now) [b](#twice-1) [c](page.md#twice) ![d](there.jpg) [e](https://example.com)'
 accepts '`[a](missing.md)`'
 finish

@@ -1,17 +1,17 @@
-"""Figures in texts are those of the pages: quote.py --check | --update [FILE...]
+"""Figures in texts are those of the pages: quote.py --check | --update
 
-A text marks a figure with the name that FIGURES gives it here. In Markdown the figure stands between comments:
-<!--= NAME -->+0.55 dB<!--/-->. In a man page the line before has .\\"= NAME = 0.55, and the next line has that text.
---check prints one line for each figure that differs from docs/*.csv, and exits with 1; --update writes it.
+quotes.txt, beside this file, has excerpts of texts, with names of figures in place of the figures; FIGURES gives the
+names. Prints one line for each excerpt that is not once in its text, and for each figure that differs from docs/*.csv,
+and exits with 1. --update first writes the figures into the texts.
 """
 import csv
-import glob
 import os
 import re
 import sys
 from statistics import mean, median
 
-DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
+HERE = os.path.dirname(os.path.abspath(__file__))
+DOCS = os.path.join(HERE, "..", "..", "docs")
 
 
 def rows(page, **which):
@@ -234,49 +234,65 @@ def figure(name):
     return FIGURES[function](*arguments)
 
 
-MARKDOWN = re.compile(r"<!--= ([^>]*?) -->(.*?)<!--/-->")
-MAN = re.compile(r'^\.\\"= (.*?) = (.*)\n(.*)$', re.M)
+def quotes():
+    """Of quotes.txt: texts with their excerpts."""
+    with open(os.path.join(HERE, "quotes.txt"), encoding="utf-8") as file:
+        blocks = re.sub(r"^#.*\n", "", file.read(), flags=re.M).split("\n\n")
+    texts = {}
+    for block in filter(None, map(str.strip, blocks)):
+        if block.startswith("@ "):
+            excerpts = texts.setdefault(block[2:], [])
+        else:
+            excerpts.append(block)
+    return texts
 
 
-def main(mode, *files):
+def pattern(excerpt):
+    """Matches the excerpt, however its lines are broken: a piece of a text for each figure."""
+    words = [re.sub(r"(\\[ \n])+", r"\\s+", re.escape(piece)) for piece in re.split(r"\{[^}]*\}", excerpt)]
+    return rf"(?<!\w){'([^|]{1,120}?)'.join(words)}(?!\w)"
+
+
+def quoted(path, text, excerpt):
+    """Returns the text with the figures in the excerpt's place, and what was wrong there."""
+    found = list(re.finditer(pattern(excerpt), text))
+    if len(found) != 1:
+        has = "has more than once" if found else "no longer has"
+        return text, [f"{path}: {has}: {' '.join(excerpt.split())}"]
+    wrong = []
+    for number, name in reversed(list(enumerate(re.findall(r"\{([^}]*)\}", excerpt), 1))):
+        low, high = found[0].span(number)
+        has, line = " ".join(text[low:high].split()), text.count("\n", 0, low) + 1
+        try:
+            now = figure(name)
+        except (KeyError, TypeError, ValueError, OSError) as why:
+            wrong.insert(0, f"{path}:{line}: {name}: {why}")
+            continue
+        if has != now:
+            wrong.insert(0, f"{path}:{line}: {name}: the text has {has}, the page {now}")
+            text = text[:low] + now + text[high:]
+    return text, wrong
+
+
+def main(mode):
     status = 0
-    files = files or ["README.md", *sorted(glob.glob("docs/*.md")), *sorted(glob.glob("man/*.[1-9]"))]
-    for path in files:
+    for path, excerpts in quotes().items():
         with open(path, encoding="utf-8") as file:
-            text = file.read()
-
-        def quoted(match, path=path):
-            nonlocal status
-            name, value = match[1], match[2]
-            try:
-                now = figure(name)
-            except (KeyError, TypeError, ValueError, OSError) as why:
-                print(f"{path}: {name}: {why}")
-                status = 1
-                return match[0]
-            if match.re is MAN and value not in match[3]:
-                print(f"{path}: {name}: the next line does not have {value}")
-                status = 1
-                return match[0]
-            if now != value and mode == "--check":
-                print(f"{path}: {name}: the text has {value}, the page {now}")
-                status = 1
-            whole, begin = match[0], match.start()
-            spans = [match.span(2)]
-            if match.re is MAN:
-                at = match.start(3) + match[3].index(value)
-                spans.append((at, at + len(value)))
-            for low, high in reversed(spans):
-                whole = whole[:low - begin] + now + whole[high - begin:]
-            return whole
-        new = MAN.sub(quoted, MARKDOWN.sub(quoted, text))
-        if mode == "--update" and new != text:
+            text = old = file.read()
+        if mode == "--update":
+            for excerpt in excerpts:
+                text, _ = quoted(path, text, excerpt)
+        if text != old:
             with open(path, "w", encoding="utf-8") as file:
-                file.write(new)
+                file.write(text)
+        for excerpt in excerpts:
+            for line in quoted(path, text, excerpt)[1]:
+                print(line)
+                status = 1
     return status
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or sys.argv[1] not in ("--check", "--update"):
+    if sys.argv[1:] not in (["--check"], ["--update"]):
         sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main(sys.argv[1]))

@@ -8,7 +8,7 @@
 # A page is made by one build on one machine. Its head names them, and the command. A page that the present build has
 # made is not made again, and one that was interrupted goes on where it stopped, as far as its script keeps what it has
 # rendered. What another build rendered is removed first, except converged pictures: build/truth holds them by what they
-# depend on. Last, README and man pages take over the new figures (quote.py).
+# depend on. Last, the texts take over the new figures (quote.py).
 set -eu
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build} size=${FIGURES:-whole} python=${PYTHON:-/usr/bin/python3}

@@ -12,7 +12,7 @@
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
 #   - tools/setup.sh installs what the Debian packages are built with
-#   - figures that README and man pages quote are those of docs/*.csv
+#   - figures that texts quote are those of docs/*.csv: tests/figures/quotes.txt
 #   - mutants: the text of each is in its file, and its tests exist
 # --tap: as one test of make check.
 set -u

@@ -1,0 +1,48 @@
+#!/bin/sh
+# The figures in texts are those of the pages; and quote.py finds each way in which they may not be.
+set -u
+. tests/lib/tap.sh
+mkdir "$work/tests" "$work/as-is"
+cp -r tests/figures "$work/tests"
+cp -r README.md docs man "$work/as-is"
+quote() { /usr/bin/python3 -B tests/figures/quote.py "$@" >found; }
+cd "$work" || exit 1
+# again: the texts as they are, the pages' figures beside them.
+again() { rm -rf README.md docs man && cp -r as-is/* .; }
+
+again
+quote --check
+status=$?
+sed 's/^/# /' found
+result "$([ $status = 0 ] && ! [ -s found ] && echo 1)" "all texts have the figures of the pages"
+
+# finds FILE EDIT MESSAGE: of that file, edited by sed, quote.py prints the message alone, and exits with 1.
+finds() {
+    again
+    sed -i -E "$2" "$1"
+    quote --check
+    status=$?
+    result "$([ "$status $(wc -l <found)" = '1 1' ] && grep -qE "$3" found && echo 1)" "found: $3"
+}
+finds README.md 's/\| 5\.1 MB/| 5.2 MB/' '^README.md:[0-9]+: post_size one pack: the text has 5.2 MB, the page 5.1 MB$'
+finds man/retex-pack.1 's/up to 0\.4 dB/up to 0.45 dB/' \
+    '^man/retex-pack.1:[0-9]+: pack_gains rendered 90: the text has 0.45 dB, the page 0.4 dB$'
+finds README.md 's/plain picture, one target/picture/' \
+    '^README.md: no longer has: plain picture, one target \| \{overhead 1\} \| \[overhead\]$'
+finds docs/faq.md 's/^- (A set takes.*two)$/- \1. \1/' \
+    '^docs/faq.md: has more than once: A set takes \{overhead 1\} more time'
+finds docs/serve.csv 's/^(304,processor_ms),.*/\1,9/' \
+    '^docs/serve.md:[0-9]+: serve_cost 304: the text has .* the page 9 ms$'
+finds docs/serve.csv '/^304,/d' '^docs/serve.md:[0-9]+: serve_cost 304: .*has no row with'
+
+again
+fmt -w 60 as-is/docs/serve.md >docs/serve.md
+result "$(quote --check && echo 1)" "lines may be broken elsewhere"
+
+again
+sed -i 's/101 MB of memory/1.5 GB of memory/; s/in 0\.59 s/in 12 s/' docs/faq.md
+quote --update
+result "$(cmp docs/faq.md as-is/docs/faq.md && ! [ -s found ] && echo 1)" "--update writes figures into the text"
+sed -i 's/one target/a target/' README.md
+result "$(quote --update || grep -c '^README.md: no longer has: plain picture' found)" "--update tells what it cannot write"
+finish
