@@ -3,9 +3,11 @@
 #
 # A file is a list of blocks. Lines of a block begin with
 #     $  a command for sh; the next lines are its exact result
+#     +  the command's next line
 #     >  a line of its standard output
 #     !  a line of its standard error
 #     =  its exit status, if it is not 0
+#     %  a line of shell functions, for the commands below it
 # Empty lines and lines with # are comments. Files of earlier commands remain for later ones. $SCENES is the folder of
 # scenes, $TESTS that of the suite. A block with the command `skip-without COMMAND why` skips the rest of the file if
 # COMMAND is not installed, a block with `skip-unless COMMAND` if COMMAND fails. Programs of suite oiio find the plugins
@@ -28,14 +30,16 @@ trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/here"
 cd "$folder/here" || exit 1
 
-number=0 skipping=
+number=0 skipping= functions=
+newline='
+'
 
 # Run $command and print its block into ../actual.
 run() {
-    sh -c "$command" >../out 2>../err </dev/null
+    sh -c "$functions$command" >../out 2>../err </dev/null
     status=$?
     {
-        printf '$ %s\n' "$command"
+        printf '%s\n' "$command" | sed '1s/^/$ /; 1!s/^/+ /; s/^+ $/+/'
         sed -e '$a\' ../out | sed 's/^/> /; s/ $//'
         sed -e '$a\' ../err | sed 's/^/! /; s/ $//'
         [ "$status" = 0 ] || echo "= $status"
@@ -46,6 +50,7 @@ run() {
 finish() {
     [ -n "$command" ] || return 0
     number=$((number + 1))
+    name=${command%%"$newline"*}
     case $command in
     skip-without\ *)
         # shellcheck disable=SC2086 # words wanted
@@ -54,19 +59,21 @@ finish() {
         cp ../expected ../actual
         ;;
     skip-unless\ *)
-        sh -c "${command#skip-unless }" >/dev/null 2>&1 </dev/null || skipping="${command#skip-unless } fails here"
+        sh -c "$functions${command#skip-unless }" >/dev/null 2>&1 </dev/null ||
+            skipping="${command#skip-unless } fails here"
         cp ../expected ../actual
         ;;
     *) [ -n "$skipping" ] || run ;;
     esac
     if [ -n "$skipping" ]; then
-        printf '%s\n' "ok $number - $command # SKIP $skipping"
+        [ -z "$update" ] || cat ../expected >>../updated
+        printf '%s\n' "ok $number - $name # SKIP $skipping"
     elif [ -n "$update" ]; then
         cat ../actual >>../updated
     elif cmp -s ../expected ../actual; then
-        printf '%s\n' "ok $number - $command"
+        printf '%s\n' "ok $number - $name"
     else
-        printf '%s\n' "not ok $number - $command"
+        printf '%s\n' "not ok $number - $name"
         diff -u ../expected ../actual | sed '1,3d; s/^/# /'
     fi
     command=
@@ -80,9 +87,15 @@ while IFS= read -r line || [ -n "$line" ]; do
         command=${line#'$ '}
         printf '%s\n' "$line" >../expected
         ;;
+    '+'*)
+        printf '%s\n' "$line" >>../expected
+        line=${line#+}
+        command=$command$newline${line#' '}
+        ;;
     '>'* | '!'* | '='*) printf '%s\n' "$line" >>../expected ;;
     *)
         finish
+        [ "${line#%}" = "$line" ] || functions=$functions${line#%}$newline
         [ -z "$update" ] || printf '%s\n' "$line" >>../updated
         ;;
     esac
