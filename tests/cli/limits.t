@@ -29,7 +29,12 @@ $ echo '#while(1) #include "blank.inc" #end' >include.pov
 $ retex-render --max-steps 1000000 include.pov -o x.exr
 ! retex-render: error: include.pov:1:9: the scene takes more than the 1000000 steps of --max-steps; is a loop endless?
 = 2
-$ awk 'BEGIN { print "polygon { 4001"; for (i = 0; i < 4000; i++) print "<" (i * 7919) % 4001 "," (i * i * 31) % 4001 ">,"; print "<0,0> }" }' >polygon.pov
+$ awk 'BEGIN {
++     print "polygon { 4001"
++     for (i = 0; i < 4000; i++)
++         print "<" (i * 7919) % 4001 "," (i * i * 31) % 4001 ">,"
++     print "<0,0> }"
++ }' >polygon.pov
 $ retex-render --max-steps 1000000 polygon.pov -o x.exr
 ! retex-render: error: polygon.pov:4002:7: the scene takes more than the 1000000 steps of --max-steps; is a loop endless?
 = 2
@@ -55,12 +60,29 @@ $ awk '{ print ($1 < 400 ? "little" : $1) }' peak
 $ echo '#declare A=array[300000000]' >array.pov; retex-render --max-memory 1G array.pov -o x.exr
 ! retex-render: error: array.pov:1:27: the scene takes more than the 1024 MB of --max-memory
 = 2
-$ awk 'BEGIN { print "camera { location -9*z look_at 0 } light_source { -9*z, 1 }"; for (i = 0; i < 10000; i++) printf "mesh2 { vertex_vectors { 3, <%d,0,0>,<%d,1,0>,<%d,0,1> } texture_list { 3, texture { pigment { rgb <.%d,1,0> } },texture { pigment { rgb <.%d,1,0> } },texture { pigment { rgb <.%d,1,0> } } } face_indices { 1, <0,1,2>,0,1,2 } }\n", i, i, i, i % 5, i % 3, i % 7 }' >molecule.pov
+$ awk 'function texture(n) { return "texture { pigment { rgb <." n ",1,0> } }" }
++ BEGIN {
++     print "camera { location -9*z look_at 0 } light_source { -9*z, 1 }"
++     for (i = 0; i < 10000; i++) {
++         printf "mesh2 { vertex_vectors { 3, <%d,0,0>,<%d,1,0>,<%d,0,1> } ", i, i, i
++         printf "texture_list { 3, %s,%s,%s } ", texture(i % 5), texture(i % 3), texture(i % 7)
++         print "face_indices { 1, <0,1,2>,0,1,2 } }"
++     }
++ }' >molecule.pov
 $ retex-render -q --plain --max-memory 47M --threads 1 --spp 1 --size 8x6 molecule.pov -o x.exr && rm x.exr
 # Equal colours are kept once; others stay what they are, as in patterns.
-$ printf '%s\n' 'camera { orthographic location <19.5,19.5,-9> right 40*x up 40*y direction z }' \
-+     '#for (I, 0, 39) #for (J, 0, 39) #declare C = rgb <I/40,J/40,.5>;' \
-+     'box { <I-.5,J-.5,0>, <I+.5,J+.5,1> pigment { #if (Pattern) gradient x color_map { [0 C] [1 C] } #else C #end } } #end #end' >colors.pov
+$ cat >colors.pov <<'END'
++ camera { orthographic location <19.5,19.5,-9> right 40*x up 40*y direction z }
++ #for (I, 0, 39)
++     #for (J, 0, 39)
++         #declare C = rgb <I/40,J/40,.5>;
++         box {
++             <I-.5,J-.5,0>, <I+.5,J+.5,1>
++             pigment { #if (Pattern) gradient x color_map { [0 C] [1 C] } #else C #end }
++         }
++     #end
++ #end
++ END
 $ for p in 0 1; do
 +     retex-render -q --plain --spp 1 --size 40x40 --ambient --aov albedo -D Pattern=$p colors.pov \
 +         -o colors-$p.exr 2>&1 | grep -v black

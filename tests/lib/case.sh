@@ -95,8 +95,12 @@ while IFS= read -r line || [ -n "$line" ]; do
     '>'* | '!'* | '='*) printf '%s\n' "$line" >>../expected ;;
     *)
         finish
-        [ "${line#%}" = "$line" ] || functions=$functions${line#%}$newline
         [ -z "$update" ] || printf '%s\n' "$line" >>../updated
+        case $line in '%'*)
+            line=${line#%}
+            functions=$functions${line#' '}$newline
+            ;;
+        esac
         ;;
     esac
 done <"$file"
