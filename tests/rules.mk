@@ -30,14 +30,15 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/common/confine.o
 # What retex-import asks of a model's surfaces is tested without Assimp.
-$(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/%.o,space room room_view)
+$(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/space/%.o,space room room_view)
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.
-SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif hints)
+SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/request/%.o,hints iiif name parse request url)
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
-$(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/%.o,serve/address serve/clients http/head serve/peers)
+$(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/%.o,serve/clients/address serve/clients/clients http/head serve/clients/peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
-	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work names kept content decoding images rooms uploads)
+	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer/answer answer/cache request/headers site/work http/body) \
+	$(patsubst %,$(BUILD)/obj/tools/serve/files/%.o,names kept content decoding images rooms uploads)
 # And the parts of retex-studio: who may ask, command lines, files.
 $(BUILD)/tests/unit/test_studio: private TEST_LIBS += $(SERVE_LIBS)
 $(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply)

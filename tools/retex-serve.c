@@ -10,7 +10,8 @@
 #include <retex/retex.h>
 
 #include "common/cli.h"
-#include "serve/http.h"
+#include "serve/http/http.h"
+#include "serve/request/parse.h"
 #include "common/watchdog.h"
 
 static const CliOption options[] = {

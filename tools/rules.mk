@@ -120,7 +120,7 @@ $(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS
 # for rooms.
 EMBREE_CFLAGS = $(filter -DRETEX_EMBREE%,$(RENDER_CFLAGS))
 EMBREE_LIBS = $(filter -lembree%,$(RENDER_LIBS))
-IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c)) $(BUILD)/obj/tools/import/draco_mesh.o
+IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c tools/import/*/*.c)) $(BUILD)/obj/tools/import/gltf/draco_mesh.o
 $(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(BUILD)/obj/tools/common/confine.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS)
@@ -134,7 +134,7 @@ $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 
 # retex-serve and retex-studio use libmicrohttpd; tools/http is what they share. retex-serve alone uses Nettle.
 HTTP_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/http/*.c))
-SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c)) $(HTTP_OBJECTS)
+SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*/*.c)) $(HTTP_OBJECTS)
 $(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)

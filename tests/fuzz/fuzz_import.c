@@ -158,8 +158,9 @@ static int count_lines(const char *text, const char *begin)
  * the file, or on memory of its own into which the tool reads for it. */
 static int is_ours(const char *report)
 {
+    static const char reading[] = "tools/import/read/assimp.c";
     const char *own = strstr(report, "tools/"), *assimp = strstr(report, "aiImportFile");
-    return own && (!assimp || own < assimp) && strncmp(own, "tools/import/files.c", 20) != 0;
+    return own && (!assimp || own < assimp) && strncmp(own, reading, strlen(reading)) != 0;
 }
 
 /* Everything that is left of a run: nothing but the model, messages and a whole scene. */

@@ -32,8 +32,8 @@ $found"
 }
 renderer_headers=$(cd renderer && find . -name '*.h' | sed 's|^\./||' | tr '\n' '|' | sed 's/|$//')
 forbid tools "renderer/|$renderer_headers" "libretex and the tools must not know the renderer"
-found=$(grep -rl '#include *<embree' tools | grep -v '^tools/import/space\.c$')
-[ -z "$found" ] || complain "of the tools, only tools/import/space.c asks Embree: $found"
+found=$(grep -rl '#include *<embree' tools | grep -v '^tools/import/space/space\.c$')
+[ -z "$found" ] || complain "of the tools, only tools/import/space/space.c asks Embree: $found"
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
 forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|jpeglib|zip\.h' "the renderer knows libretex only"
@@ -80,7 +80,9 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7
     11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
-back=$(rooms tools 1:common 2:batch 2:http 2:decode 2:import 3:combine 3:page 3:serve 3:studio)
+back=$(rooms tools 1:common 2:batch 2:http 2:decode 3:combine 3:page 3:studio \
+    2:import/base 2:import/space 3:import/gltf 4:import/read 4:import/sense 5:import/scene 6:import \
+    3:serve/request 3:serve/answer 3:serve/clients 4:serve/files 5:serve/site 6:serve/http)
 [ -z "$back" ] || complain "rooms of tools, from one that stands later:
 $back"
 back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light \
@@ -104,6 +106,9 @@ done
 no_circle "$(grep -rE '^#include <retex/' tools/libretex/include/retex |
     sed -nE 's|^.*/(retex/[^:]*):#include <(.*)>|\1 \2|p')" "public headers that include each other"
 no_circle "$(needs tools/libretex | awk '{ print $1, $2 }')" "files of tools/libretex that need each other"
+for room in import serve studio http; do
+    no_circle "$(needs tools/$room | awk '{ print $1, $2 }')" "files of tools/$room that need each other"
+done
 recursive='^sdl/'
 no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
     "files of the renderer that need each other"
@@ -144,7 +149,10 @@ for room in base io exr picture texture set edit precision retexture solve denoi
         [ "$name" != "${name%.h}" ] && [ -e "${file%.h}.c" ] && continue
         complain "$file: not in tools/libretex/README.md"
     done
-    [ "$(find tools/libretex/$room -type f | wc -l)" -le 40 ] || complain "tools/libretex/$room has more than 40 files"
+done
+
+for folder in $(find tools -type d); do
+    [ "$(find "$folder" -maxdepth 1 -type f | wc -l)" -le 40 ] || complain "$folder has more than 40 files"
 done
 
 probe=$(mktemp -d)

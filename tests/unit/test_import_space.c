@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/room.h"
+#include "import/space/room.h"
 
 #define PI 3.14159265358979323846
 

@@ -16,14 +16,14 @@
 
 #include <retex/clock.h>
 
-#include "serve/body.h"
-#include "serve/cache.h"
-#include "serve/headers.h"
-#include "serve/images.h"
-#include "serve/kept.h"
-#include "serve/rooms.h"
-#include "serve/uploads.h"
-#include "serve/work.h"
+#include "serve/http/body.h"
+#include "serve/answer/cache.h"
+#include "serve/request/headers.h"
+#include "serve/files/images.h"
+#include "serve/files/kept.h"
+#include "serve/files/rooms.h"
+#include "serve/files/uploads.h"
+#include "serve/site/work.h"
 
 /* ---- answers ---- */
 

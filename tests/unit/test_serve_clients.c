@@ -11,10 +11,10 @@
 
 #include <retex/clock.h>
 
-#include "serve/address.h"
-#include "serve/clients.h"
+#include "serve/clients/address.h"
+#include "serve/clients/clients.h"
 #include "http/head.h"
-#include "serve/peers.h"
+#include "serve/clients/peers.h"
 
 /* ---- addresses ---- */
 

@@ -9,7 +9,8 @@
 
 #include <jansson.h>
 
-#include "serve/iiif.h"
+#include "serve/request/iiif.h"
+#include "serve/request/parse.h"
 
 #define ALL ((1u << SERVE_FORMATS) - 1)
 

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "common/json_text.h"
-#include "serve/hints.h"
-#include "serve/request.h"
+#include "serve/request/hints.h"
+#include "serve/request/parse.h"
 
 #define ALL ((1u << SERVE_FORMATS) - 1)
 

@@ -12,161 +12,26 @@
 #include <assimp/postprocess.h>
 #include <retex/version.h>
 
-#include "import/internal.h"
-#include "import/variants.h"
+#include "import/base/files.h"
+#include "import/base/losses.h"
+#include "import/base/mesh.h"
+#include "import/base/tell.h"
+#include "import/base/world.h"
+#include "import/gltf/gltf.h"
+#include "import/gltf/variants.h"
+#include "import/import.h"
+#include "import/read/read.h"
+#include "import/scene/cameras.h"
+#include "import/scene/images.h"
+#include "import/scene/lights.h"
+#include "import/scene/materials.h"
+#include "import/scene/meshes.h"
+#include "import/scene/variants.h"
+#include "import/sense/cutaway.h"
+#include "import/sense/doubles.h"
+#include "import/sense/sense.h"
 
 #define FARTHEST 1e15 /* from the origin */
-
-/* ---- messages ---- */
-
-void import_tell(const Import *import, char kind, const char *fmt, ...)
-{
-    char text[1024];
-    va_list args;
-    va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
-    va_end(args);
-    import->options->tell(import->options->context, kind, text);
-}
-
-void import_leave_out(Import *import, LeftOut what)
-{
-    static const char *const texts[] = {
-        [LEFT_NORMAL_MAP] = "normal maps with a third set of UV are left out",
-        [LEFT_FINISH_MAP] = "of images of the finish with a third set of UV, the mean is taken",
-        [LEFT_EMISSION_MAP] = "images of emission with a third set of UV are left out",
-        [LEFT_SPECULAR_MAP] = "images of the reflectance are left out",
-        [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface transmits light",
-        [LEFT_SHEEN_ROUGHNESS_MAP] = "of images of the roughness of sheen, the mean is taken",
-        [LEFT_ANIMATION] = "animations are left out",
-        [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
-        [LEFT_MORPHS] = "shape keys are left out: meshes keep their basic shape",
-        [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
-        [LEFT_OTHER_UV] = "of meshes without the set of UV that their images ask for, the first one is taken",
-        [LEFT_NO_UV] = "images on meshes without UV show one colour",
-        [LEFT_NOWHERE] = "objects whose place is no number are left out",
-        [LEFT_LINES] = "points and lines are left out",
-        [LEFT_SAME_NAME] = "cameras and lights that cannot be told from others of the same name are left out",
-    };
-    if (import->left_out >> what & 1)
-        return;
-    import->left_out |= 1ul << what;
-    import_tell(import, IMPORT_WARNING, "%s", texts[what]);
-}
-
-const char *import_plain(const char *text, char plain[NAME_SIZE])
-{
-    int n = 0;
-    for (; *text && n + 1 < NAME_SIZE; text++)
-        plain[n++] = (unsigned char)*text < 32 || *text == 127 ? '?' : *text;
-    plain[n] = '\0';
-    return plain;
-}
-
-/* ---- the model ---- */
-
-static int has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
-
-static int is_gltf(const char *path)
-{
-    return has_ending(path, ".gltf") || has_ending(path, ".glb");
-}
-
-void import_set_world(Import *import, char up)
-{
-    const double s = import->options->scale;
-    const Affine y_up = {{{s, 0, 0, 0}, {0, s, 0, 0}, {0, 0, s, 0}}};
-    const Affine z_up = {{{s, 0, 0, 0}, {0, 0, s, 0}, {0, -s, 0, 0}}};
-    import->world = up == 'z' ? z_up : y_up;
-}
-
-/* Which of its axes is up is known of some formats; Assimp turns others so that y is. */
-static void set_world(Import *import)
-{
-    const ImportOptions *options = import->options;
-    import_set_world(import, options->up ? options->up : has_ending(options->model, ".stl") ? 'z' : 'y');
-    import->axes_are_unknown = has_ending(options->model, ".obj") || has_ending(options->model, ".ply");
-    import->has_metres = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb") ||
-                         has_ending(options->model, ".fbx") || has_ending(options->model, ".dae");
-}
-
-void import_set_scale(Import *import, double scale)
-{
-    const Affine larger = {{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, 0}}};
-    import->own_options->scale *= scale;
-    import->world = affine_multiply(&larger, &import->world);
-    for (int i = 0; i < import->gltf.ncameras; i++)
-        import->gltf.cameras[i].place = affine_multiply(&larger, &import->gltf.cameras[i].place);
-    for (int i = 0; i < import->gltf.nlights; i++)
-        import->gltf.lights[i].place = affine_multiply(&larger, &import->gltf.lights[i].place);
-}
-
-static const struct aiScene *read_by_assimp(Import *import, unsigned flags)
-{
-    struct aiPropertyStore *properties = aiCreatePropertyStore();
-    struct aiFileIO *io = files_io(import);
-    const struct aiScene *scene = NULL;
-    if (properties && io) {
-        aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, aiComponent_TANGENTS_AND_BITANGENTS);
-        aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, (ai_real)import->options->smooth);
-        scene = aiImportFileExWithProperties(import->options->model, flags, io, properties);
-    }
-    if (properties)
-        aiReleasePropertyStore(properties);
-    files_close_io(io);
-    return scene;
-}
-
-/* Assimp's check refuses cameras and lights that share a name, though it can read them: see places.c. */
-static int names_are_refused(void)
-{
-    return strstr(aiGetErrorString(), "aiScene::mLights") || strstr(aiGetErrorString(), "aiScene::mCameras");
-}
-
-static int read_model(Import *import, RetexError *err)
-{
-    const ImportOptions *options = import->options;
-    unsigned flags = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords | aiProcess_RemoveComponent;
-    import->is_gltf = is_gltf(options->model);
-    if (options->variant && !import->is_gltf)
-        return retex_fail(err, RETEX_EINVAL, "%s: only glTF files have variants", options->model);
-    import->is_fbx = has_ending(options->model, ".fbx");
-    import->is_3ds = has_ending(options->model, ".3ds");
-    if (!import->is_gltf)
-        flags |= aiProcess_JoinIdenticalVertices;
-    if (import->is_fbx)
-        flags |= aiProcess_GlobalScale;
-    if (options->smooth > 0)
-        flags |= aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices;
-    import->scene = read_by_assimp(import, flags | aiProcess_ValidateDataStructure);
-    if (!import->scene && names_are_refused())
-        import->scene = read_by_assimp(import, flags);
-    if (import->denied[0])
-        return retex_fail(err, RETEX_EACCESS,
-                          "%s: the model names the file `%s`, which is outside of its folder; "
-                          "-I DIR adds folders that may be read",
-                          options->model, import->denied);
-    if (import->gltf_refused[0])
-        return gltf_explain(import, err);
-    if (!import->scene && (strstr(aiGetErrorString(), "bad_alloc") || !*aiGetErrorString()))
-        return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
-                          options->model);
-    const int code = !import->scene && import->is_gltf ? gltf_explain(import, err) : RETEX_OK;
-    if (code)
-        return code;
-    if (!import->scene && strstr(aiGetErrorString(), "No meshes remaining")) /* of those that are no points and lines */
-        return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", options->model);
-    if (!import->scene)
-        return retex_fail(err, RETEX_EFORMAT, "%s: %.400s", options->model, aiGetErrorString());
-    if (!import->scene->mRootNode || !import->scene->mNumMeshes || !import->scene->mNumMaterials)
-        return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", options->model);
-    return RETEX_OK;
-}
 
 static void note_left_out(Import *import)
 {
@@ -184,39 +49,6 @@ typedef struct Bounds {
     double low[3], high[3];
     int any;
 } Bounds;
-
-typedef struct Place {
-    const struct aiNode *node;
-    Affine world;
-} Place;
-
-/* Without recursion, for files may nest deeply. */
-int import_visit_nodes(Import *import, ImportVisit *visit, void *context)
-{
-    size_t count = 1, capacity = 256;
-    Place *places = malloc(capacity * sizeof *places);
-    if (!places)
-        return 0;
-    places[0] = (Place){import->scene->mRootNode, import->world};
-    while (count) {
-        const Place place = places[--count];
-        const Affine own = affine_from(&place.node->mTransformation), world = affine_multiply(&place.world, &own);
-        visit(import, place.node, &world, context);
-        if (count + place.node->mNumChildren > capacity) {
-            capacity = 2 * (count + place.node->mNumChildren);
-            Place *more = realloc(places, capacity * sizeof *places);
-            if (!more) {
-                free(places);
-                return 0;
-            }
-            places = more;
-        }
-        for (unsigned i = place.node->mNumChildren; i-- > 0;)
-            places[count++] = (Place){place.node->mChildren[i], world};
-    }
-    free(places);
-    return 1;
-}
 
 static void add_bounds(Import *import, const struct aiNode *node, const Affine *world, void *context)
 {
@@ -347,6 +179,10 @@ static int write_scene(Import *import, RetexError *err)
     size_t size = 0;
     FILE *memory = open_memstream(&materials, &size);
     int code = memory ? materials_write(import, memory, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (!code)
+        code = variants_write(import, memory, err);
+    if (!code)
+        code = materials_write_names(import, memory, err);
     if (memory && fclose(memory) != 0 && !code)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory");
     if (!code)
@@ -396,14 +232,12 @@ int import_model(const ImportOptions *options, RetexError *err)
     char folder[PATH_MAX];
     int code = files_begin(&import, err);
     if (!code && options->list_variants)
-        return is_gltf(options->model) ? gltf_list_variants(&import, err) : RETEX_OK;
+        return assimp_is_gltf(options->model) ? gltf_list_variants(&import, err) : RETEX_OK;
     snprintf(folder, sizeof folder, "%s/textures", options->folder);
     if (!code && mkdir(folder, 0777) != 0)
         code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
-    if (!code) {
-        set_world(&import);
-        code = read_model(&import, err);
-    }
+    if (!code)
+        code = assimp_read(&import, err);
     if (!code)
         code = morphs_apply(&import, err);
     if (!code && import.is_gltf)

@@ -1,0 +1,180 @@
+/* Rays against a model's triangles, through Embree, whose errors are translated here. Builds with Embree 3 and 4. */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(RETEX_EMBREE4)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+
+#include "import/space/space.h"
+#endif
+
+struct Space {
+    RTCDevice device;
+    RTCScene scene;
+    SpaceTriangles triangles;
+    double low[3], high[3];
+    RetexError error; /* Embree's first */
+};
+
+static void record_error(void *context, enum RTCError code, const char *text)
+{
+    Space *space = context;
+    if (space->error.code == 0)
+        retex_fail(&space->error, code == RTC_ERROR_OUT_OF_MEMORY ? RETEX_ENOMEM : RETEX_EINTERNAL, "Embree: %s",
+                   text ? text : "unknown error");
+}
+
+static void find_bounds(Space *space)
+{
+    const SpaceTriangles *t = &space->triangles;
+    for (int k = 0; k < 3; k++)
+        space->low[k] = INFINITY, space->high[k] = -INFINITY;
+    for (size_t i = 0; i < 3 * t->ntriangles; i++) {
+        const float *v = t->vertices[t->corners[i / 3][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            space->low[k] = fmin(space->low[k], (double)v[k]);
+            space->high[k] = fmax(space->high[k], (double)v[k]);
+        }
+    }
+}
+
+/* Embree reads whole vectors: the last vertex needs a float more behind it. */
+static int add_geometry(Space *space, RetexError *err)
+{
+    SpaceTriangles *t = &space->triangles;
+    float(*padded)[3] = realloc(t->vertices, (t->nvertices + 2) * sizeof *padded);
+    if (!padded)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    t->vertices = padded;
+    memset(padded[t->nvertices], 0, 2 * sizeof *padded);
+    RTCGeometry geometry = rtcNewGeometry(space->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, t->vertices, 0,
+                               sizeof *t->vertices, t->nvertices);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, t->corners, 0, sizeof *t->corners,
+                               t->ntriangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(space->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(space->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
+    rtcCommitScene(space->scene);
+    if (space->error.code)
+        return retex_fail(err, space->error.code, "%s", space->error.message);
+    return RETEX_OK;
+}
+
+int space_create(Space **out, SpaceTriangles *triangles, RetexError *err)
+{
+    Space *space = calloc(1, sizeof *space);
+    *out = NULL;
+    if (!space) {
+        free(triangles->vertices);
+        free(triangles->corners);
+        free(triangles->tags);
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    }
+    space->triangles = *triangles;
+    memset(triangles, 0, sizeof *triangles);
+    space->device = rtcNewDevice("threads=1,set_affinity=0");
+    int code = space->device ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "Embree does not start");
+    if (!code) {
+        rtcSetDeviceErrorFunction(space->device, record_error, space);
+        space->scene = rtcNewScene(space->device);
+        if (!space->scene)
+            code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+    }
+    if (!code) {
+        find_bounds(space);
+        code = add_geometry(space, err);
+    }
+    if (code)
+        space_free(space);
+    else
+        *out = space;
+    return code;
+}
+
+void space_free(Space *space)
+{
+    if (!space)
+        return;
+    if (space->scene)
+        rtcReleaseScene(space->scene);
+    if (space->device)
+        rtcReleaseDevice(space->device);
+    free(space->triangles.vertices);
+    free(space->triangles.corners);
+    free(space->triangles.tags);
+    free(space);
+}
+
+void space_bounds(const Space *space, double low[3], double high[3])
+{
+    memcpy(low, space->low, sizeof space->low);
+    memcpy(high, space->high, sizeof space->high);
+}
+
+const SpaceTriangles *space_triangles(const Space *space)
+{
+    return &space->triangles;
+}
+
+int space_ray(const Space *space, const double from[3], const double direction[3], double tmin, double tmax,
+              SpaceHit *hit)
+{
+    struct RTCRayHit ray = {0};
+    double length = 0;
+    ray.ray.org_x = (float)from[0], ray.ray.org_y = (float)from[1], ray.ray.org_z = (float)from[2];
+    ray.ray.dir_x = (float)direction[0], ray.ray.dir_y = (float)direction[1], ray.ray.dir_z = (float)direction[2];
+    ray.ray.tnear = (float)tmin, ray.ray.tfar = (float)tmax;
+    ray.ray.mask = ~0u;
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if defined(RETEX_EMBREE4)
+    rtcIntersect1(space->scene, &ray, NULL);
+#else
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(space->scene, &context, &ray);
+#endif
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return 0;
+    hit->t = (double)ray.ray.tfar;
+    hit->triangle = ray.hit.primID;
+    hit->tag = space->triangles.tags[hit->triangle];
+    const uint32_t *corner = space->triangles.corners[hit->triangle];
+    const float *a = space->triangles.vertices[corner[0]], *b = space->triangles.vertices[corner[1]],
+                *c = space->triangles.vertices[corner[2]];
+    double towards = 0;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        hit->point[k] = from[k] + hit->t * direction[k];
+        hit->normal[k] = ((double)b[i] - (double)a[i]) * ((double)c[j] - (double)a[j]) -
+                         ((double)b[j] - (double)a[j]) * ((double)c[i] - (double)a[i]);
+        length += hit->normal[k] * hit->normal[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        hit->normal[k] /= length > 0 ? sqrt(length) : 1;
+        towards += hit->normal[k] * direction[k];
+    }
+    hit->is_front = towards < 0;
+    return 1;
+}
+
+int space_ray_through(const Space *space, const double from[3], const double direction[3], const unsigned char *passes,
+                      SpaceHit *hit)
+{
+    enum { MOST_PASSED = 64 };
+    const double size = fmax(fmax(fabs(from[0]), fabs(from[1])), fabs(from[2]));
+    double tmin = 0;
+    for (int passed = 0; passed < MOST_PASSED; passed++) {
+        if (!space_ray(space, from, direction, tmin, INFINITY, hit))
+            return 0;
+        if (!passes || !passes[hit->tag])
+            return 1;
+        tmin = hit->t + 1e-6 * (hit->t + size);
+    }
+    return 1;
+}
