@@ -39,7 +39,8 @@ LIBDIR ?= $(PREFIX)/lib
 DESTDIR ?=
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
-WARNINGS = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wvla
+WARNINGS = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wvla \
+	-Wno-missing-field-initializers # rows of tables leave out what is 0
 CXXWARNINGS = -Wall -Wextra
 VERSION := $(shell sed -n 's/.* RETEX_VERSION "\(.*\)"$$/\1/p' tools/libretex/include/retex/version.h)
 PKG_CONFIG ?= pkg-config

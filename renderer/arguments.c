@@ -173,9 +173,9 @@ static const CliOption options[] = {
                   0},
     [OPT_STEPS] = {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS",
                    0},
-    [OPT_FRAMES] = FRAMES_OPTION,
+    [OPT_FRAMES] = FRAMES_OPTION(Arguments, frames),
     [OPT_PROGRESS] = CLI_PROGRESS_OPTION,
-    BATCH_OPTIONS,
+    BATCH_OPTIONS(Arguments, batch),
     {0},
 };
 
@@ -231,7 +231,7 @@ static void parse_option(Arguments *a, const CliOption *o)
     RetexError err;
     CameraView view;
     int size[2];
-    if (batch_option(&a->batch, cli, o))
+    if (cli_take(cli, o, a))
         return;
     switch (o - options) {
     case OPT_TARGET:
@@ -341,15 +341,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_STEPS:
         cli_limit(cli, o);
         break;
-    case OPT_FRAMES:
-        frames_take(cli, o, &a->frames);
-        break;
     case OPT_TRACE:
         numbers(cli, o, ',', 3, a->trace);
         a->tracing = 1;
-        break;
-    case OPT_PROGRESS:
-        cli_take_progress(cli);
         break;
     default:
         a->seeded |= o == &options[OPT_SEED];

@@ -7,132 +7,126 @@
 
 #include "combine/job.h"
 
-static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts as in retex-sample", 1},
-    {"light", 0, "NAME=VALUE", "give lamp NAME another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K", 0},
-    {"finish", 0, "TARGET=NAME", "give TARGET another of the finishes that the set has for it", 0},
-    {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
-    {"size", 0, "WxH", "a smaller picture: of WxH pixels, or Wx or xH to keep the aspect", 0},
-    {"crop", 0, "X,Y,W,H", "only this rectangle of the picture", 0},
-    {"preset", 0, "FILE", "what --save-preset wrote: textures, lamps, finishes, exposure, view; options go first", 0},
-    {"save-preset", 0, "FILE", "write these options to a file, for --preset", 0},
-    {"exposure", 0, "STOPS", "make the picture brighter, by 2^STOPS; -30 to 30", 0},
-    {"auto-exposure", 0, NULL, "bring the picture's mean brightness to a middle grey, before --exposure", 0},
-    {"white-balance", 0, "KELVINS", "make light of so many kelvins white, 1000 to 25000", 0},
-    {"display", 0, "NAME", "OCIO display for the picture", 0},
-    {"view", 0, "NAME", "view of that display: Standard, Filmic, Neutral, Raw, or one of $OCIO", 0},
-    {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
-    {"quality", 0, "N", "quality of a JPEG, 1 to 100; default 95", 0},
-    {"depth", 0, "8|16", "bits of a PNG, TIFF or other file of integers; default 8, of TIFF and DPX 16", 0},
-    {"cross", 0, "0|2|3", "use cross terms of paths with at most this many hits; default 3", 0},
-    {"error", 0, "FILE.exr", "write the expected error against a new render, per pixel", 0},
-    {"solve", 0, "FILE", "print which colours, lamps and finishes come nearest to a picture, or to a colour", 0},
-    {"free", 0, "LIST", "with --solve: what is sought, as TARGET,light:LAMP,color:LAMP,finish:TARGET", 0},
-    {"region", 0, "X,Y,W,H", "with --solve: only this part of the picture counts", 0},
-    {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0},
-    {"memory", 0, "SIZE", "with --batch: keep the set and samples in memory if they take at most SIZE; default 2048 MB",
-     0},
-    FRAMES_OPTION,
-    BATCH_OPTIONS,
-    BATCH_CATALOGUE_OPTIONS,
-    CLI_PROGRESS_OPTION,
-    {0},
-};
-
 static void check(const Cli *cli, int code, const RetexError *err)
 {
     if (code)
         cli_fail(cli, err);
 }
 
-/* Options about how the picture is developed, picture:NAME=VALUE; the last of a name holds. */
-static const char *const picture_keys[] = {"exposure", "white-balance", "auto-exposure", "view"};
-enum { PICTURE_KEYS = sizeof picture_keys / sizeof *picture_keys };
-
-static int take_picture_key(const Cli *cli, const CliOption *option, const char *values[PICTURE_KEYS])
+static void take_light(Cli *cli, const CliOption *option, void *edit)
 {
-    int i = 0;
-    while (i < PICTURE_KEYS && strcmp(picture_keys[i], option->name) != 0)
-        i++;
-    if (i < PICTURE_KEYS)
-        values[i] = option->argument ? cli->value : "yes";
-    return i < PICTURE_KEYS;
+    (void)option;
+    RetexError err = {0};
+    check(cli, retex_edit_light(*(RetexEdit **)edit, cli->value, &err), &err);
 }
 
-static void set_picture_keys(const Cli *cli, RetexEdit *edit, const char *const values[PICTURE_KEYS])
+static void take_finish(Cli *cli, const CliOption *option, void *edit)
 {
+    (void)option;
     RetexError err = {0};
-    for (int i = 0; i < PICTURE_KEYS; i++) {
-        char key[64];
-        snprintf(key, sizeof key, "picture:%s", picture_keys[i]);
-        if (values[i])
-            check(cli, retex_edit_set(edit, key, values[i], &err), &err);
-    }
+    check(cli, retex_edit_finish(*(RetexEdit **)edit, cli->value, &err), &err);
+}
+
+static void take_solo(Cli *cli, const CliOption *option, void *edit)
+{
+    (void)option;
+    RetexError err = {0};
+    check(cli, retex_edit_solo(*(RetexEdit **)edit, cli->value, &err), &err);
+}
+
+static void take_depth(Cli *cli, const CliOption *option, void *to)
+{
+    const int depth = (int)cli_integer(cli, option, 8, 16);
+    if (depth != 8 && depth != 16)
+        cli_die(cli, "--depth: expected 8 or 16, not '%s'", cli->value);
+    *(int *)to = depth;
+}
+
+static void take_cross(Cli *cli, const CliOption *option, void *to)
+{
+    const int cross = (int)cli_integer(cli, option, 0, 3);
+    if (cross == 1)
+        cli_die(cli, "--cross: expected 0, 2 or 3; one hit has no cross terms");
+    *(int *)to = cross;
+}
+
+static const CliOption options[] = {
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts as in retex-sample", 1,
+     CLI_CALL(Job, textures, texture_args_add)},
+    {"light", 0, "NAME=VALUE", "give lamp NAME another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K", 0,
+     CLI_CALL(Job, lights, take_light)},
+    {"finish", 0, "TARGET=NAME", "give TARGET another of the finishes that the set has for it", 0,
+     CLI_CALL(Job, lights, take_finish)},
+    {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0, CLI_CALL(Job, solo, take_solo)},
+    {"size", 0, "WxH", "a smaller picture: of WxH pixels, or Wx or xH to keep the aspect", 0,
+     CLI_CALL(Job, scaled, job_take_size)},
+    {"crop", 0, "X,Y,W,H", "only this rectangle of the picture", 0, CLI_CALL(Job, crop, job_take_rectangle)},
+    {"preset", 0, "FILE", "what --save-preset wrote: textures, lamps, finishes, exposure, view; options go first", 0,
+     CLI_INTO(Job, preset)},
+    {"save-preset", 0, "FILE", "write these options to a file, for --preset", 0, CLI_INTO(Job, save_preset)},
+    {"exposure", 0, "STOPS", "make the picture brighter, by 2^STOPS; -30 to 30", 0, CLI_INTO(Job, exposure)},
+    {"auto-exposure", 0, NULL, "bring the picture's mean brightness to a middle grey, before --exposure", 0,
+     CLI_INTO(Job, auto_exposure)},
+    {"white-balance", 0, "KELVINS", "make light of so many kelvins white, 1000 to 25000", 0,
+     CLI_INTO(Job, white_balance)},
+    {"display", 0, "NAME", "OCIO display for the picture", 0, CLI_INTO(Job, write.display)},
+    {"view", 0, "NAME", "view of that display: Standard, Filmic, Neutral, Raw, or one of $OCIO", 0,
+     CLI_INTO(Job, view)},
+    {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0, CLI_INTO(Job, write.colorspace)},
+    {"quality", 0, "N", "quality of a JPEG, 1 to 100; default 95", 0, CLI_NUMBER(Job, write.quality, 1, 100)},
+    {"depth", 0, "8|16", "bits of a PNG, TIFF or other file of integers; default 8, of TIFF and DPX 16", 0,
+     CLI_CALL(Job, write.depth, take_depth)},
+    {"cross", 0, "0|2|3", "use cross terms of paths with at most this many hits; default 3", 0,
+     CLI_CALL(Job, combine.cross, take_cross)},
+    {"error", 0, "FILE.exr", "write the expected error against a new render, per pixel", 0, CLI_INTO(Job, error)},
+    {"solve", 0, "FILE", "print which colours, lamps and finishes come nearest to a picture, or to a colour", 0,
+     CLI_INTO(Job, solve)},
+    {"free", 0, "LIST", "with --solve: what is sought, as TARGET,light:LAMP,color:LAMP,finish:TARGET", 0,
+     CLI_INTO(Job, unknowns)},
+    {"region", 0, "X,Y,W,H", "with --solve: only this part of the picture counts", 0,
+     CLI_CALL(Job, region, job_take_rectangle)},
+    {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0,
+     CLI_INTO(Job, table)},
+    {"memory", 0, "SIZE", "with --batch: keep the set and samples in memory if they take at most SIZE; default 2048 MB",
+     0, CLI_INTO(Job, memory)},
+    FRAMES_OPTION(Job, frames),
+    BATCH_OPTIONS(Job, batch),
+    BATCH_CATALOGUE_OPTIONS(Job, batch),
+    CLI_PROGRESS_OPTION,
+    {0},
+};
+
+/* How the picture is developed, as picture:NAME=VALUE; the last of a name holds. */
+static void set_picture_keys(const Cli *cli, const Job *job)
+{
+    const struct {
+        const char *key, *value;
+    } keys[] = {{"picture:exposure", job->exposure},
+                {"picture:white-balance", job->white_balance},
+                {"picture:auto-exposure", job->auto_exposure ? "yes" : NULL},
+                {"picture:view", job->view}};
+    RetexError err = {0};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (keys[i].value)
+            check(cli, retex_edit_set(job->lights, keys[i].key, keys[i].value, &err), &err);
+}
+
+static void take_file(Cli *cli, void *to)
+{
+    Job *job = to;
+    if (job->samples_path)
+        cli_surplus(cli, "one set and its samples are enough");
+    *(job->set_path ? &job->samples_path : &job->set_path) = cli->value;
 }
 
 static void parse(Cli *cli, Job *job)
 {
     RetexError err = {0};
-    RetexEdit *solo = NULL;
-    const char *values[PICTURE_KEYS] = {NULL};
-    check(cli, retex_edit_create(&job->lights, &err) || retex_edit_create(&solo, &err), &err);
-    for (const CliOption *option; (option = cli_next(cli));) {
-        if (option == &cli_positional) {
-            if (job->samples_path)
-                cli_surplus(cli, "one set and its samples are enough");
-            *(job->set_path ? &job->samples_path : &job->set_path) = cli->value;
-        } else if (strcmp(option->name, "texture") == 0) {
-            texture_args_add(cli, &job->textures);
-        } else if (strcmp(option->name, "light") == 0) {
-            check(cli, retex_edit_light(job->lights, cli->value, &err), &err);
-        } else if (strcmp(option->name, "finish") == 0) {
-            check(cli, retex_edit_finish(job->lights, cli->value, &err), &err);
-        } else if (strcmp(option->name, "solo") == 0) {
-            check(cli, retex_edit_solo(solo, cli->value, &err), &err);
-        } else if (strcmp(option->name, "preset") == 0) {
-            job->preset = cli->value;
-        } else if (strcmp(option->name, "save-preset") == 0) {
-            job->save_preset = cli->value;
-        } else if (strcmp(option->name, "display") == 0) {
-            job->write.display = cli->value;
-        } else if (strcmp(option->name, "colorspace") == 0) {
-            job->write.colorspace = cli->value;
-        } else if (strcmp(option->name, "quality") == 0) {
-            job->write.quality = (int)cli_integer(cli, option, 1, 100);
-        } else if (strcmp(option->name, "depth") == 0) {
-            job->write.depth = (int)cli_integer(cli, option, 8, 16);
-            if (job->write.depth != 8 && job->write.depth != 16)
-                cli_die(cli, "--depth: expected 8 or 16, not '%s'", cli->value);
-        } else if (strcmp(option->name, "cross") == 0) {
-            job->combine.cross = (int)cli_integer(cli, option, 0, 3);
-            if (job->combine.cross == 1)
-                cli_die(cli, "--cross: expected 0, 2 or 3; one hit has no cross terms");
-        } else if (strcmp(option->name, "error") == 0) {
-            job->error = cli->value;
-        } else if (strcmp(option->name, "solve") == 0) {
-            job->solve = cli->value;
-        } else if (strcmp(option->name, "free") == 0) {
-            job->unknowns = cli->value;
-        } else if (strcmp(option->name, "region") == 0) {
-            job_take_rectangle(cli, option, job->region);
-        } else if (strcmp(option->name, "crop") == 0) {
-            job_take_rectangle(cli, option, job->crop);
-        } else if (strcmp(option->name, "size") == 0) {
-            job_take_size(cli, job);
-        } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_size(cli, option);
-        } else if (strcmp(option->name, "batch") == 0) {
-            job->table = cli->value;
-        } else if (strcmp(option->name, "frames") == 0) {
-            frames_take(cli, option, &job->frames);
-        } else if (!take_picture_key(cli, option, values) && !batch_option(&job->batch, cli, option) &&
-                   !batch_catalogue_option(&job->batch, cli, option)) {
-            cli_take_progress(cli);
-        }
-    }
-    check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
-    retex_edit_close(&solo);
-    set_picture_keys(cli, job->lights, values);
+    check(cli, retex_edit_create(&job->lights, &err) || retex_edit_create(&job->solo, &err), &err);
+    cli_parse(cli, job, take_file);
+    check(cli, retex_edit_complete_lights(job->lights, job->solo, &err), &err);
+    retex_edit_close(&job->solo);
+    set_picture_keys(cli, job);
     cli_writes(cli, "--save-preset", job->save_preset);
     if (job->save_preset)
         check(cli, retex_file_write_check(job->save_preset, &err), &err);

@@ -14,101 +14,86 @@
 /* Strips take as long as the whole set in memory, and a third of the memory at 1920 x 1080. */
 #define MEMORY_DEFAULT ((uint64_t)512 << 20)
 
-static const CliOption options[] = {
-    {"strength", 0, "F", "difference of similar pixels, in standard deviations of their noise, 0.1 to 10; default 1",
-     0},
-    {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0},
-    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 512 MB", 0},
-    {"denoiser", 0, "nlm|oidn|both",
-     "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0},
-    {"quality", 0, "preview|final", "preview: less time, for interactive use; default final", 0},
-    {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
-    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
-    {"layer", 0, "NAME", "of a picture that is no set: denoise this layer; may be repeated; default: the picture", 0},
-    {"other-half", 0, "FILE", "a second render of that picture, with as many other samples", 0},
-    {"variance", 0, "NAME", "layer with the variance of each pixel's mean", 0},
-    {"normal", 0, "NAME", "layer of normals; default: the one of a well known name, as for the three below", 0},
-    {"albedo", 0, "NAME", "layer of colours of surfaces", 0},
-    {"position", 0, "NAME", "layer of positions", 0},
-    {"depth", 0, "NAME", "layer of depths, if there are no positions", 0},
-    {0},
-};
+typedef struct Request {
+    const char *input;
+    RetexDenoiseParams params;
+    uint64_t memory;
+    int no_footprints;
+    const char **layers;               /* of a picture */
+    const char *first_of_pictures;     /* the first option that is for pictures only, or NULL */
+    RetexDenoisePictureParams picture; /* of what is no set; stands last: see is_of_pictures */
+} Request;
 
-static void check_denoiser(const Cli *cli, const CliOption *option)
+static void take_denoiser(Cli *cli, const CliOption *option, void *to)
 {
     if (strcmp(cli->value, "nlm") != 0 && strcmp(cli->value, "oidn") != 0 && strcmp(cli->value, "both") != 0)
         cli_die(cli, "--%s: expected nlm, oidn or both, not '%s'", option->name, cli->value);
+    *(const char **)to = cli->value;
 }
 
-static void check_quality(const Cli *cli, const CliOption *option)
+static void take_quality(Cli *cli, const CliOption *option, void *to)
 {
     if (strcmp(cli->value, "preview") != 0 && strcmp(cli->value, "final") != 0)
         cli_die(cli, "--%s: expected preview or final, not '%s'", option->name, cli->value);
+    *(const char **)to = cli->value;
 }
 
-/* What the options say of a picture that is no set. */
-typedef struct Picture {
-    RetexDenoisePictureParams params;
-    const char **layers;
-    const char *first;         /* the first option that is for pictures, or NULL */
-    const char *first_of_sets; /* the same of options for sets */
-} Picture;
-
-/* Takes an option that is for pictures only; 0: it is another one. */
-static int take_picture_option(const Cli *cli, const CliOption *option, Picture *picture)
+static void take_layer(Cli *cli, const CliOption *option, void *to)
 {
-    RetexDenoisePictureParams *p = &picture->params;
-    const struct {
-        const char *name, **value;
-    } names[] = {{"other-half", &p->other_half}, {"variance", &p->variance}, {"normal", &p->normal},
-                 {"albedo", &p->albedo},         {"position", &p->position}, {"depth", &p->depth}};
-    if (strcmp(option->name, "layer") == 0) {
-        picture->layers[p->nlayers++] = cli->value;
-        picture->first = picture->first ? picture->first : option->name;
-        return 1;
-    }
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        if (strcmp(option->name, names[k].name) == 0) {
-            *names[k].value = cli->value;
-            picture->first = picture->first ? picture->first : option->name;
-            return 1;
-        }
-    return 0;
+    (void)option;
+    Request *r = to;
+    r->layers[r->picture.nlayers++] = cli->value;
 }
 
-static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory, Picture *picture)
+static const CliOption options[] = {
+    {"strength", 0, "F", "difference of similar pixels, in standard deviations of their noise, 0.1 to 10; default 1", 0,
+     CLI_NUMBER(Request, params.strength, 0.1, 10)},
+    {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0,
+     CLI_NUMBER(Request, params.radius, 1, 10)},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 512 MB", 0,
+     CLI_INTO(Request, memory)},
+    {"denoiser", 0, "nlm|oidn|both",
+     "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0,
+     CLI_CALL(Request, params.denoiser, take_denoiser)},
+    {"quality", 0, "preview|final", "preview: less time, for interactive use; default final", 0,
+     CLI_CALL(Request, params.quality, take_quality)},
+    {"no-footprints", 0, NULL, "leave footprints unchanged", 0, CLI_INTO(Request, no_footprints)},
+    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0,
+     CLI_INTO(Request, params.full_precision)},
+    {"layer", 0, "NAME", "of a picture that is no set: denoise this layer; may be repeated; default: the picture", 0,
+     CLI_CALL_OF_ALL(take_layer)},
+    {"other-half", 0, "FILE", "a second render of that picture, with as many other samples", 0,
+     CLI_INTO(Request, picture.other_half)},
+    {"variance", 0, "NAME", "layer with the variance of each pixel's mean", 0, CLI_INTO(Request, picture.variance)},
+    {"normal", 0, "NAME", "layer of normals; default: the one of a well known name, as for the three below", 0,
+     CLI_INTO(Request, picture.normal)},
+    {"albedo", 0, "NAME", "layer of colours of surfaces", 0, CLI_INTO(Request, picture.albedo)},
+    {"position", 0, "NAME", "layer of positions", 0, CLI_INTO(Request, picture.position)},
+    {"depth", 0, "NAME", "layer of depths, if there are no positions", 0, CLI_INTO(Request, picture.depth)},
+    {0},
+};
+
+static int is_of_pictures(const CliOption *option)
 {
-    const char *input = NULL;
+    return option->into.take == take_layer || option->into.at >= offsetof(Request, picture);
+}
+
+static void parse(Cli *cli, Request *r)
+{
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
-            if (input)
+            if (r->input)
                 cli_surplus(cli, "one set is enough");
-            input = cli->value;
-        } else if (take_picture_option(cli, option, picture)) {
+            r->input = cli->value;
             continue;
-        } else if (strcmp(option->name, "strength") == 0) {
-            params->strength = (float)cli_number(cli, option, 0.1, 10);
-        } else if (strcmp(option->name, "radius") == 0) {
-            params->radius = (int)cli_integer(cli, option, 1, 10);
-        } else if (strcmp(option->name, "memory") == 0) {
-            *memory = cli_size(cli, option);
-        } else if (strcmp(option->name, "denoiser") == 0) {
-            params->denoiser = cli->value;
-            check_denoiser(cli, option);
-        } else if (strcmp(option->name, "quality") == 0) {
-            params->quality = cli->value;
-            check_quality(cli, option);
-        } else if (strcmp(option->name, "full-precision") == 0) {
-            params->full_precision = 1;
-            picture->first_of_sets = option->name;
-        } else {
-            params->footprints = 0;
-            picture->first_of_sets = option->name;
         }
+        cli_take(cli, option, r);
+        if (is_of_pictures(option) && !r->first_of_pictures)
+            r->first_of_pictures = option->name;
     }
-    if (!input)
+    if (!r->input)
         cli_die(cli, "no set given; - is standard input");
-    return input;
+    r->params.footprints = !r->no_footprints;
 }
 
 /* The output is a set, or an EXR picture. Refuse names of other formats. */
@@ -128,33 +113,27 @@ static void progress(void *context, double done)
     cli_progress(context, "denoise", done);
 }
 
-static void print_note(void *cli, int important, const char *text)
-{
-    if (important)
-        cli_info(cli, "%s", text);
-    else
-        cli_detail(cli, "%s", text);
-}
-
 /* A picture of any renderer: the output is the same file with other pixels. */
-static int denoise_picture(Cli *cli, Picture *picture, const RetexDenoiseParams *params, const char *input,
-                           const char *output)
+static int denoise_picture(Cli *cli, Request *r, const char *output)
 {
-    RetexDenoisePictureParams *p = &picture->params;
+    RetexDenoisePictureParams *p = &r->picture;
+    const char *input = r->input, *of_sets = r->no_footprints            ? "no-footprints"
+                                             : r->params.full_precision ? "full-precision"
+                                                                        : NULL;
     RetexError err = {0};
-    if (picture->first_of_sets)
-        cli_die(cli, "--%s: %s is a picture, not a set", picture->first_of_sets, input);
+    if (of_sets)
+        cli_die(cli, "--%s: %s is a picture, not a set", of_sets, input);
     check_ending(cli, output, input);
     if (p->other_half) {
         cli_input(cli, p->other_half, "the other half");
         cli_reads(cli, "--other-half", p->other_half);
     }
-    p->layers = picture->layers;
+    p->layers = r->layers;
     p->access = &cli->access;
-    p->note = print_note;
+    p->note = cli_note;
     p->note_context = cli;
     const double began = retex_clock_seconds();
-    if (retex_denoise_picture(input, output, p, params, cli->threads, &err))
+    if (retex_denoise_picture(input, output, p, &r->params, cli->threads, &err))
         cli_fail(cli, &err);
     cli_info(cli, "%s: %.2f s", strcmp(output, "-") == 0 ? "standard output" : output, retex_clock_seconds() - began);
     return cli_close(cli, CLI_OK);
@@ -177,36 +156,36 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
-    RetexDenoiseParams params = RETEX_DENOISE_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
-    uint64_t memory = MEMORY_DEFAULT;
-    Picture picture = {.params = RETEX_DENOISE_PICTURE_INIT, .layers = calloc((size_t)argc, sizeof *picture.layers)};
+    Request request = {.params = RETEX_DENOISE_INIT, .memory = MEMORY_DEFAULT, .picture = RETEX_DENOISE_PICTURE_INIT};
+    RetexDenoiseParams *params = &request.params;
 
-    if (!picture.layers)
+    if (!(request.layers = calloc((size_t)argc, sizeof *request.layers)))
         cli_die(&cli, "no memory for the arguments");
-    const char *input = parse(&cli, &params, &memory, &picture), *output = cli_output(&cli);
+    parse(&cli, &request);
+    const char *input = request.input, *output = cli_output(&cli);
     const int piped = strcmp(input, "-") == 0;
     cli_input(&cli, input, "a set, as from retex-render");
     cli_reads(&cli, "the set", input);
     cli_writes(&cli, "the output", output);
-    params.progress = progress;
-    params.progress_context = &cli;
-    params.near = output;
-    params.budget = cli.budget;
-    if (piped ? picture.first != NULL : retex_is_picture(input, &cli.access))
-        return denoise_picture(&cli, &picture, &params, input, output);
-    if (picture.first)
-        cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", picture.first, input);
-    free(picture.layers);
+    params->progress = progress;
+    params->progress_context = &cli;
+    params->near = output;
+    params->budget = cli.budget;
+    if (piped ? request.first_of_pictures != NULL : retex_is_picture(input, &cli.access))
+        return denoise_picture(&cli, &request, output);
+    if (request.first_of_pictures)
+        cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", request.first_of_pictures, input);
+    free(request.layers);
     check_ending(&cli, output, NULL);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     const double began = retex_clock_seconds();
-    if (cli_open_set(&cli, &set, input, memory, &err))
+    if (cli_open_set(&cli, &set, input, request.memory, &err))
         cli_fail(&cli, &err);
     const double read = retex_clock_seconds();
-    if (retex_denoise(set, &params, NULL, cli.threads, &err))
+    if (retex_denoise(set, params, NULL, cli.threads, &err))
         cli_fail(&cli, &err);
     const double denoised = retex_clock_seconds();
     if (write_set(&cli, set, output, &err))

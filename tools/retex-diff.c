@@ -8,52 +8,41 @@
 #include "common/cli.h"
 #include "common/json_text.h"
 
+typedef struct Request {
+    RetexDiffParams params;
+    const char *names[2]; /* of the files */
+    int files, json;
+} Request;
+
 static const CliOption options[] = {
-    {"json", 0, NULL, "print the figures as JSON", 0},
-    {"part", 0, "NAME", "compare the parts called NAME, not the first part of each file", 0},
-    {"all-parts", 0, NULL, "compare all parts, by name", 0},
-    {"allow-inf", 0, NULL, "treat infinities of the same sign as equal", 0},
-    {"fail-psnr", 0, "DB", "fail if the PSNR is below DB", 0},
-    {"fail-relmse", 0, "X", "fail if relMSE is above X", 0},
-    {"fail-flip", 0, "X", "fail if the mean of FLIP is above X", 0},
-    {"fail-abs", 0, "X", "fail if any value differs by more than X", 0},
-    {"fail-rel", 0, "X", "fail if any value differs by more than X times that of B", 0},
+    {"json", 0, NULL, "print the figures as JSON", 0, CLI_INTO(Request, json)},
+    {"part", 0, "NAME", "compare the parts called NAME, not the first part of each file", 0,
+     CLI_INTO(Request, params.part)},
+    {"all-parts", 0, NULL, "compare all parts, by name", 0, CLI_INTO(Request, params.all_parts)},
+    {"allow-inf", 0, NULL, "treat infinities of the same sign as equal", 0, CLI_INTO(Request, params.allow_inf)},
+    {"fail-psnr", 0, "DB", "fail if the PSNR is below DB", 0, CLI_NUMBER(Request, params.fail_psnr, 0, 120)},
+    {"fail-relmse", 0, "X", "fail if relMSE is above X", 0, CLI_NUMBER(Request, params.fail_relmse, 0, 1e30)},
+    {"fail-flip", 0, "X", "fail if the mean of FLIP is above X", 0, CLI_NUMBER(Request, params.fail_flip, 0, 1)},
+    {"fail-abs", 0, "X", "fail if any value differs by more than X", 0, CLI_NUMBER(Request, params.fail_abs, 0, 1e30)},
+    {"fail-rel", 0, "X", "fail if any value differs by more than X times that of B", 0,
+     CLI_NUMBER(Request, params.fail_rel, 0, 1e30)},
     {0},
 };
 
-/* Parse the options; names gets the two files. */
-static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *names[2])
+static void take_file(Cli *cli, void *to)
 {
-    const CliOption *option;
-    int files = 0;
-    while ((option = cli_next(cli))) {
-        if (option == &cli_positional) {
-            if (files == 2)
-                cli_die(cli, "more than two files: '%s'", cli->value);
-            names[files++] = cli->value;
-        } else if (strcmp(option->name, "json") == 0) {
-            *json = 1;
-        } else if (strcmp(option->name, "part") == 0) {
-            params->part = cli->value;
-        } else if (strcmp(option->name, "all-parts") == 0) {
-            params->all_parts = 1;
-        } else if (strcmp(option->name, "allow-inf") == 0) {
-            params->allow_inf = 1;
-        } else if (strcmp(option->name, "fail-psnr") == 0) {
-            params->fail_psnr = cli_number(cli, option, 0, 120);
-        } else if (strcmp(option->name, "fail-relmse") == 0) {
-            params->fail_relmse = cli_number(cli, option, 0, 1e30);
-        } else if (strcmp(option->name, "fail-flip") == 0) {
-            params->fail_flip = cli_number(cli, option, 0, 1);
-        } else if (strcmp(option->name, "fail-abs") == 0) {
-            params->fail_abs = cli_number(cli, option, 0, 1e30);
-        } else if (strcmp(option->name, "fail-rel") == 0) {
-            params->fail_rel = cli_number(cli, option, 0, 1e30);
-        }
-    }
-    if (files < 2)
+    Request *request = to;
+    if (request->files == 2)
+        cli_die(cli, "more than two files: '%s'", cli->value);
+    request->names[request->files++] = cli->value;
+}
+
+static void parse(Cli *cli, Request *request)
+{
+    cli_parse(cli, request, take_file);
+    if (request->files < 2)
         cli_die(cli, "two files are needed; try --help");
-    if (params->part && params->all_parts)
+    if (request->params.part && request->params.all_parts)
         cli_die(cli, "--part and --all-parts exclude each other");
 }
 
@@ -142,30 +131,29 @@ int main(int argc, char **argv)
         .about =
             "Compare picture A with the reference B. The exit status is 0 if they are the same or within the limits "
             "given, 1 if they differ."};
-    RetexDiffParams params = RETEX_DIFF_INIT;
+    Request request = {.params = RETEX_DIFF_INIT};
+    RetexDiffParams *params = &request.params;
     RetexDiff *diff = NULL;
     RetexError err = {0};
-    const char *names[2];
-    int json = 0;
 
-    parse(&cli, &params, &json, names);
+    parse(&cli, &request);
     for (int i = 0; i < 2; i++) {
-        cli_input(&cli, names[i], "an OpenEXR file");
-        cli_reads(&cli, i ? "B" : "A", names[i]);
+        cli_input(&cli, request.names[i], "an OpenEXR file");
+        cli_reads(&cli, i ? "B" : "A", request.names[i]);
     }
     cli_answer(&cli);
-    params.access = &cli.access;
-    params.budget = cli.budget;
-    params.warn = cli_warn_text;
-    params.warn_context = &cli;
-    if (retex_diff(&diff, names[0], names[1], &params, cli.threads, &err))
+    params->access = &cli.access;
+    params->budget = cli.budget;
+    params->warn = cli_warn_text;
+    params->warn_context = &cli;
+    if (retex_diff(&diff, request.names[0], request.names[1], params, cli.threads, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;
-    if (json)
-        print_json(cli.answer, diff, params.all_parts);
-    for (int i = 0; !json && !cli.quiet && i < diff->nparts; i++)
-        print_line(cli.answer, &diff->parts[i], params.all_parts);
-    if (!json && !cli.quiet && differs && (!diff->nparts || params.all_parts))
+    if (request.json)
+        print_json(cli.answer, diff, params->all_parts);
+    for (int i = 0; !request.json && !cli.quiet && i < diff->nparts; i++)
+        print_line(cli.answer, &diff->parts[i], params->all_parts);
+    if (!request.json && !cli.quiet && differs && (!diff->nparts || params->all_parts))
         fprintf(cli.answer, "%s\n", cli_plain(diff->reason));
     retex_diff_close(&diff);
     return cli_close(&cli, differs ? CLI_NO : CLI_OK);

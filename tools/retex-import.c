@@ -29,27 +29,78 @@
 
 enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
 
+typedef struct Request {
+    ImportOptions import;
+    const char *also[MOST_FOLDERS];
+    const char *layer, *other_half; /* of pictures; all else is for models */
+    const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
+    int force;
+} Request;
+
+static void take_axis(Cli *cli, const CliOption *option, void *to)
+{
+    if (strcmp(cli->value, "y") != 0 && strcmp(cli->value, "z") != 0)
+        cli_die(cli, "--%s: expected y or z, not '%s'", option->name, cli->value);
+    *(char *)to = cli->value[0];
+}
+
+static void take_scale(Cli *cli, const CliOption *option, void *to)
+{
+    ImportOptions *import = to;
+    import->scale *= cli_number(cli, option, 1e-9, 1e9);
+    import->is_scaled = 1;
+}
+
+static void take_unit(Cli *cli, const CliOption *option, void *to)
+{
+    ImportOptions *import = to;
+    double metres;
+    RetexError err = {0};
+    if (retex_length_parse(&metres, cli->value, &err) || !(metres >= 1e-9 && metres <= 1e9))
+        cli_die(cli, "--%s: expected a length such as cm, 2.5cm or ft, not '%s'", option->name, cli->value);
+    import->scale *= metres;
+    import->unit = 1;
+}
+
+static void take_include(Cli *cli, const CliOption *option, void *to)
+{
+    (void)option;
+    Request *r = to;
+    if (r->import.nalso == MOST_FOLDERS)
+        cli_die(cli, "-I: more than %d folders", MOST_FOLDERS);
+    r->also[r->import.nalso++] = cli->value;
+}
+
 static const CliOption options[] = {
     {"camera", 0, "N",
      "the Nth camera of the model, or the one of that name; or inside, outside, or X,Y,Z:X,Y,Z[:ANGLE], where it is "
      "and what it looks at; default auto: the first, else inside of a room, else outside",
-     0},
-    {"sky", 0, "FILE", "put a picture around the scene, which lights it: HDR, EXR, PNG, JPEG or TIFF", 0},
-    {"up", 0, "y|z", "the model's axis that is up; default what its format says", 0},
+     0, CLI_INTO(Request, import.camera)},
+    {"sky", 0, "FILE", "put a picture around the scene, which lights it: HDR, EXR, PNG, JPEG or TIFF", 0,
+     CLI_INTO(Request, import.sky)},
+    {"up", 0, "y|z", "the model's axis that is up; default what its format says", 0,
+     CLI_CALL(Request, import.up, take_axis)},
     {"unit", 0, "LENGTH",
      "what a unit of the model is: cm, 2.5cm, ft; the scene has metres. Default: what its format or its room's height "
      "says",
-     0},
-    {"scale", 0, "S", "multiply all lengths", 0},
-    {"lights", 0, "F", "multiply the light of all light sources", 0},
-    {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
-    {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0},
-    {"partial", 0, NULL, "make the scene although images, objects or lights are lost", 0},
-    {"variant", 0, "NAME", "take the materials of this variant of a glTF file", 0},
-    {"list-variants", 0, NULL, "print the names of the variants of a glTF file, and stop", 0},
-    {"layer", 0, "NAME", "of a picture with light groups: the layer of all light; default: Combined", 0},
-    {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0},
-    {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0},
+     0, CLI_CALL(Request, import, take_unit)},
+    {"scale", 0, "S", "multiply all lengths", 0, CLI_CALL(Request, import, take_scale)},
+    {"lights", 0, "F", "multiply the light of all light sources", 0, CLI_NUMBER(Request, import.lights, 0, 1e9)},
+    {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0,
+     CLI_NUMBER(Request, import.smooth, 0, 175)},
+    {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0,
+     CLI_CALL_OF_ALL(take_include)},
+    {"partial", 0, NULL, "make the scene although images, objects or lights are lost", 0,
+     CLI_INTO(Request, import.partial)},
+    {"variant", 0, "NAME", "take the materials of this variant of a glTF file", 0, CLI_INTO(Request, import.variant)},
+    {"list-variants", 0, NULL, "print the names of the variants of a glTF file, and stop", 0,
+     CLI_INTO(Request, import.list_variants)},
+    {"layer", 0, "NAME", "of a picture with light groups: the layer of all light; default: Combined", 0,
+     CLI_INTO(Request, layer)},
+    {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0,
+     CLI_INTO(Request, other_half)},
+    {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0,
+     CLI_INTO(Request, force)},
     {0},
 };
 
@@ -310,74 +361,20 @@ static void import_to(const Cli *cli, ImportOptions *import, int force)
 
 /* ---- the command line ---- */
 
-typedef struct Request {
-    const char *also[MOST_FOLDERS];
-    const char *layer, *other_half;
-    const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
-    int force;
-} Request;
-
-static char take_axis(const Cli *cli)
+static void parse(Cli *cli, Request *r)
 {
-    if (strcmp(cli->value, "y") != 0 && strcmp(cli->value, "z") != 0)
-        cli_die(cli, "--up: expected y or z, not '%s'", cli->value);
-    return cli->value[0];
-}
-
-static double take_unit(const Cli *cli)
-{
-    double metres;
-    RetexError err = {0};
-    if (retex_length_parse(&metres, cli->value, &err) || !(metres >= 1e-9 && metres <= 1e9))
-        cli_die(cli, "--unit: expected a length such as cm, 2.5cm or ft, not '%s'", cli->value);
-    return metres;
-}
-
-static void parse(Cli *cli, ImportOptions *import, Request *r)
-{
-    const CliOption *option;
-    while ((option = cli_next(cli))) {
+    ImportOptions *import = &r->import;
+    for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
             if (import->model)
                 cli_surplus(cli, "one model at a time");
             import->model = cli->value;
             continue;
         }
-        if (strcmp(option->name, "layer") == 0 || strcmp(option->name, "other-half") == 0) {
-            r->first_of_pictures = r->first_of_pictures ? r->first_of_pictures : option->name;
-            *(strcmp(option->name, "layer") == 0 ? &r->layer : &r->other_half) = cli->value;
-            continue;
-        }
-        r->first = r->first ? r->first : option->name;
-        if (strcmp(option->name, "camera") == 0) {
-            import->camera = cli->value;
-        } else if (strcmp(option->name, "sky") == 0) {
-            import->sky = cli->value;
-        } else if (strcmp(option->name, "up") == 0) {
-            import->up = take_axis(cli);
-        } else if (strcmp(option->name, "scale") == 0) {
-            import->scale *= cli_number(cli, option, 1e-9, 1e9);
-            import->is_scaled = 1;
-        } else if (strcmp(option->name, "unit") == 0) {
-            import->scale *= take_unit(cli);
-            import->unit = 1;
-        } else if (strcmp(option->name, "lights") == 0) {
-            import->lights = cli_number(cli, option, 0, 1e9);
-        } else if (strcmp(option->name, "smooth") == 0) {
-            import->smooth = cli_number(cli, option, 0, 175);
-        } else if (strcmp(option->name, "variant") == 0) {
-            import->variant = cli->value;
-        } else if (strcmp(option->name, "list-variants") == 0) {
-            import->list_variants = 1;
-        } else if (strcmp(option->name, "include") == 0) {
-            if (import->nalso == MOST_FOLDERS)
-                cli_die(cli, "-I: more than %d folders", MOST_FOLDERS);
-            r->also[import->nalso++] = cli->value;
-        } else if (strcmp(option->name, "partial") == 0) {
-            import->partial = 1;
-        } else {
-            r->force = 1;
-        }
+        const int is_of_pictures = strcmp(option->name, "layer") == 0 || strcmp(option->name, "other-half") == 0;
+        const char **first = is_of_pictures ? &r->first_of_pictures : &r->first;
+        *first = *first ? *first : option->name;
+        cli_take(cli, option, r);
     }
     if (!import->model)
         cli_die(cli, "no model given");
@@ -386,14 +383,6 @@ static void parse(Cli *cli, ImportOptions *import, Request *r)
 }
 
 /* ---- pictures with light groups ---- */
-
-static void print_note(void *cli, int important, const char *text)
-{
-    if (important)
-        cli_info(cli, "%s", text);
-    else
-        cli_detail(cli, "%s", text);
-}
 
 static int import_picture(Cli *cli, const char *path, const Request *request)
 {
@@ -415,7 +404,7 @@ static int import_picture(Cli *cli, const char *path, const Request *request)
     params.nlayers = request->layer != NULL;
     params.other_half = request->other_half;
     params.access = &cli->access;
-    params.note = print_note;
+    params.note = cli_note;
     params.note_context = cli;
     if (retex_set_write_check(output, &err) ||
         retex_set_read_light_groups(&set, path, &params, cli->budget, cli->threads, &err) ||
@@ -447,25 +436,25 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
-    Request request = {.force = 0};
-    ImportOptions import = {.scale = 1, .lights = 1, .also = request.also};
+    Request request = {.import = {.scale = 1, .lights = 1, .also = request.also}};
+    ImportOptions *import = &request.import;
 
-    parse(&cli, &import, &request);
-    cli_input(&cli, import.model, "a model");
-    cli_reads(&cli, "the model", import.model);
-    if (retex_is_picture(import.model, &cli.access))
-        return import_picture(&cli, import.model, &request);
+    parse(&cli, &request);
+    cli_input(&cli, import->model, "a model");
+    cli_reads(&cli, "the model", import->model);
+    if (retex_is_picture(import->model, &cli.access))
+        return import_picture(&cli, import->model, &request);
     if (request.first_of_pictures)
         cli_die(&cli, "--%s is for pictures with light groups: %s is no OpenEXR picture", request.first_of_pictures,
-                import.model);
-    cli_reads(&cli, "--sky", import.sky);
-    import.safe = cli.access.safe ? 2 : 0; /* the process that reads the model decodes its pictures, too */
-    import.accept_damaged = cli.access.accept_damaged;
-    import.max_pixels = cli.limits.pixels;
-    import.budget = cli.budget;
-    if (import.list_variants)
-        return list_variants(&cli, &import);
-    import_to(&cli, &import, request.force);
+                import->model);
+    cli_reads(&cli, "--sky", import->sky);
+    import->safe = cli.access.safe ? 2 : 0; /* the process that reads the model decodes its pictures, too */
+    import->accept_damaged = cli.access.accept_damaged;
+    import->max_pixels = cli.limits.pixels;
+    import->budget = cli.budget;
+    if (import->list_variants)
+        return list_variants(&cli, import);
+    import_to(&cli, import, request.force);
     watchdog_done(); /* nothing goes to standard output, which need not be closed well */
     return CLI_OK;
 }

@@ -9,12 +9,30 @@
 #include "common/cli.h"
 #include "common/compositor.h"
 
+/* What the command line asks for. */
+typedef struct Request {
+    const char *path, *layers;
+    int json, checking;
+    CompositorKind script;
+} Request;
+
+static void take_script(Cli *cli, const CliOption *option, void *to)
+{
+    CompositorKind *script = to;
+    if (*script)
+        cli_die(cli, "one script at a time: --blender or --nuke");
+    *script = strcmp(option->name, "nuke") == 0 ? COMPOSITOR_NUKE : COMPOSITOR_BLENDER;
+}
+
 static const CliOption options[] = {
-    {"json", 0, NULL, "print the manifest and the sizes as JSON", 0},
-    {"check", 0, NULL, "check the checksums of all parts; exit status 1 if one is wrong", 0},
-    {"layers", 0, "FILE.exr", "write the set's images as the layers of a flat EXR, for compositors", 0},
-    {"blender", 0, NULL, "print a script of nodes for Blender's compositor that reads FILE.exr", 0},
-    {"nuke", 0, NULL, "print such a script for Nuke", 0},
+    {"json", 0, NULL, "print the manifest and the sizes as JSON", 0, CLI_INTO(Request, json)},
+    {"check", 0, NULL, "check the checksums of all parts; exit status 1 if one is wrong", 0,
+     CLI_INTO(Request, checking)},
+    {"layers", 0, "FILE.exr", "write the set's images as the layers of a flat EXR, for compositors", 0,
+     CLI_INTO(Request, layers)},
+    {"blender", 0, NULL, "print a script of nodes for Blender's compositor that reads FILE.exr", 0,
+     CLI_CALL(Request, script, take_script)},
+    {"nuke", 0, NULL, "print such a script for Nuke", 0, CLI_CALL(Request, script, take_script)},
     {0},
 };
 
@@ -362,13 +380,6 @@ static int check(const Cli *cli, const char *path)
     return CLI_OK;
 }
 
-/* What the command line asks for. */
-typedef struct Request {
-    const char *path, *layers;
-    int json, checking;
-    CompositorKind script;
-} Request;
-
 /* Scripts are read in any folder. */
 static int print_script(const Cli *cli, const Request *request, const RetexSet *set, RetexError *err)
 {
@@ -418,6 +429,14 @@ static void check_request(Cli *cli, const Request *request)
     cli_writes(cli, "--layers", request->layers);
 }
 
+static void take_path(Cli *cli, void *to)
+{
+    Request *request = to;
+    if (request->path)
+        cli_die(cli, "one set at a time: what is %s?", cli->value);
+    request->path = cli->value;
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-info",
@@ -428,25 +447,7 @@ int main(int argc, char **argv)
                .argv = argv,
                .next = 1};
     Request request = {0};
-    const CliOption *option;
-
-    while ((option = cli_next(&cli))) {
-        if (option == &cli_positional) {
-            if (request.path)
-                cli_die(&cli, "one set at a time: what is %s?", cli.value);
-            request.path = cli.value;
-        } else if (strcmp(option->name, "json") == 0) {
-            request.json = 1;
-        } else if (strcmp(option->name, "check") == 0) {
-            request.checking = 1;
-        } else if (strcmp(option->name, "layers") == 0) {
-            request.layers = cli.value;
-        } else {
-            if (request.script)
-                cli_die(&cli, "one script at a time: --blender or --nuke");
-            request.script = strcmp(option->name, "nuke") == 0 ? COMPOSITOR_NUKE : COMPOSITOR_BLENDER;
-        }
-    }
+    cli_parse(&cli, &request, take_path);
     check_request(&cli, &request);
     cli_answer(&cli);
     return cli_close(&cli, request.layers     ? write_layers(&cli, &request)

@@ -2,15 +2,6 @@
 #include "common/kept_textures.h"
 #include "common/texture_args.h"
 
-static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
-    {"preset", 0, "FILE", "the textures of a preset, as of retex-combine; options go first", 0},
-    {"refer", 0, NULL, "name the set, by its path, size and checksum, instead of carrying it along", 0},
-    FRAMES_OPTION,
-    {"keep-going", 0, NULL, "continue after a frame that fails", 0},
-    {0},
-};
-
 typedef struct Job {
     const char *set, *preset, *output;
     TextureArgs textures;
@@ -18,24 +9,28 @@ typedef struct Job {
     int keep_going, refer;
 } Job;
 
+static const CliOption options[] = {
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1,
+     CLI_CALL(Job, textures, texture_args_add)},
+    {"preset", 0, "FILE", "the textures of a preset, as of retex-combine; options go first", 0, CLI_INTO(Job, preset)},
+    {"refer", 0, NULL, "name the set, by its path, size and checksum, instead of carrying it along", 0,
+     CLI_INTO(Job, refer)},
+    FRAMES_OPTION(Job, frames),
+    {"keep-going", 0, NULL, "continue after a frame that fails", 0, CLI_INTO(Job, keep_going)},
+    {0},
+};
+
+static void take_set(Cli *cli, void *to)
+{
+    Job *job = to;
+    if (job->set)
+        cli_surplus(cli, "one set is enough");
+    job->set = cli->value;
+}
+
 static void parse(Cli *cli, Job *job)
 {
-    for (const CliOption *option; (option = cli_next(cli));) {
-        if (option != &cli_positional && strcmp(option->name, "frames") == 0)
-            frames_take(cli, option, &job->frames);
-        else if (option != &cli_positional && strcmp(option->name, "keep-going") == 0)
-            job->keep_going = 1;
-        else if (option != &cli_positional && strcmp(option->name, "refer") == 0)
-            job->refer = 1;
-        else if (option != &cli_positional && strcmp(option->name, "preset") == 0)
-            job->preset = cli->value;
-        else if (option != &cli_positional)
-            texture_args_add(cli, &job->textures);
-        else if (job->set)
-            cli_surplus(cli, "one set is enough");
-        else
-            job->set = cli->value;
-    }
+    cli_parse(cli, job, take_set);
     if (!job->set)
         cli_die(cli, "no set given; - is standard input");
     if (job->preset) /* what it says of lamps and the picture is for retex-combine */

@@ -14,36 +14,6 @@
 #include "serve/request/parse.h"
 #include "common/watchdog.h"
 
-static const CliOption options[] = {
-    {"port", 0, "N", "listen on this port; 0: a free one, which is printed; default 8080", 0},
-    {"listen", 0, "ADDRESS", "listen on this address; default 127.0.0.1", 0},
-    {"textures", 0, "FOLDER", "images that a URL may name; without it there are only colours", 0},
-    {"presets", 0, "FOLDER", "presets that a URL may name, files NAME.json as retex-combine writes them", 0},
-    {"quality", 0, "N", "quality of JPEG, WebP, AVIF and JPEG XL if the URL has none, 1 to 100; default 95", 0},
-    {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0},
-    {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0},
-    {"picture-memory", 0, "SIZE", "keep finished pictures of at most SIZE in memory; default 128 MB", 0},
-    {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 512", 0},
-    {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 300", 0},
-    {"connections", 0, "N", "accept at most N connections; default 1000", 0},
-    {"per-client", 0, "N", "accept at most N connections of one client, N/8 images; 0: any number; default 64", 0},
-    {"trusted-proxy", 0, "ADDRESS", "clients of this proxy, or of a network a.b.c.d/BITS, are those it tells", 0},
-    {"key-file", 0, "FILE", "answer only URLs that are signed by one of the keys in FILE", 0},
-    {"sign", 0, "URL", "print URL signed by the first key of --key-file, and end", 0},
-    {"min-rate", 0, "N", "close a connection that sends fewer than N bytes of an image a second; default 1000", 0},
-    {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
-    {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0},
-    {"uploads", 0, "FOLDER", "accept images by POST and keep them in FOLDER; by default none are accepted", 0},
-    {"upload-size", 0, "SIZE", "accept an image of at most SIZE; default 16 MB", 0},
-    {"upload-pixels", 0, "N", "accept an image of at most N pixels; default 25000000", 0},
-    {"upload-count", 0, "N", "keep at most N images; default 1000", 0},
-    {"upload-total", 0, "SIZE", "keep images of at most SIZE in all; default 1024 MB", 0},
-    {"upload-age", 0, "SECONDS", "delete an image after this time; 0: never; default 86400, a day", 0},
-    {"upload-time", 0, "SECONDS", "give up an image that takes longer to decode; default 10", 0},
-    {"base-url", 0, "URL", "the server's URL as clients know it; default that of this machine", 0},
-    {0},
-};
-
 typedef struct Job {
     const char *folder, *textures, *presets;
     uint64_t memory, texture_memory, picture_memory; /* bytes */
@@ -57,59 +27,29 @@ typedef struct Job {
     HttpParams http;
 } Job;
 
-static int parse_number(const Cli *cli, const CliOption *option, Job *job)
+static void take_base(Cli *cli, const CliOption *option, void *to)
 {
-    HttpParams *http = &job->http;
-    const char *name = option->name;
-    if (strcmp(name, "port") == 0)
-        http->port = (int)cli_integer(cli, option, 0, 65535);
-    else if (strcmp(name, "quality") == 0)
-        job->quality = (int)cli_integer(cli, option, 1, 100);
-    else if (strcmp(name, "queue") == 0)
-        job->queue = (int)cli_integer(cli, option, 0, 100000);
-    else if (strcmp(name, "deadline") == 0)
-        http->deadline = cli_number(cli, option, 0.001, 3600);
-    else if (strcmp(name, "connections") == 0)
-        http->connections = (int)cli_integer(cli, option, 1, 100000);
-    else if (strcmp(name, "per-client") == 0)
-        http->per_client = (int)cli_integer(cli, option, 0, 100000);
-    else if (strcmp(name, "min-rate") == 0)
-        http->min_rate = cli_number(cli, option, 0, 1e9);
-    else if (strcmp(name, "timeout") == 0)
-        http->timeout = cli_number(cli, option, 0.1, 3600);
-    else if (strcmp(name, "max-age") == 0)
-        http->max_age = (int)cli_integer(cli, option, 0, 31536000);
-    else if (strcmp(name, "upload-pixels") == 0)
-        job->upload_pixels = cli_integer(cli, option, 1, 1L << 28);
-    else if (strcmp(name, "upload-count") == 0)
-        job->upload_count = (int)cli_integer(cli, option, 1, 1000000);
-    else if (strcmp(name, "upload-age") == 0)
-        job->upload_age = cli_number(cli, option, 0, 1e9);
-    else if (strcmp(name, "upload-time") == 0)
-        job->upload_time = cli_number(cli, option, 0.01, 60);
-    else
-        return 0;
-    return 1;
-}
-
-static void check_base(const Cli *cli)
-{
+    (void)option;
     const size_t length = strlen(cli->value);
     if (length >= 256 || (strncmp(cli->value, "http://", 7) != 0 && strncmp(cli->value, "https://", 8) != 0) ||
         cli->value[length - 1] == '/' || strpbrk(cli->value, " \"<>\\\n"))
         cli_die(cli, "--base-url: expected a URL such as https://example.org, without a slash at its end, not '%s'",
                 cli->value);
+    *(const char **)to = cli->value;
 }
 
-static void read_keys(const Cli *cli, Keys *keys)
+static void read_keys(Cli *cli, const CliOption *option, void *keys)
 {
+    (void)option;
     RetexError err = {0};
     if (keys_read(keys, cli->value, &err))
         cli_fail(cli, &err);
 }
 
-static void add_proxy(const Cli *cli, Trusted *proxies)
+static void add_proxy(Cli *cli, const CliOption *option, void *to)
 {
+    (void)option;
+    Trusted *proxies = to;
     if (proxies->count == TRUSTED_MAX)
         cli_die(cli, "--trusted-proxy: at most %d are taken", TRUSTED_MAX);
     if (trusted_add(proxies, cli->value))
@@ -118,44 +58,67 @@ static void add_proxy(const Cli *cli, Trusted *proxies)
                 cli->value);
 }
 
+static const CliOption options[] = {
+    {"port", 0, "N", "listen on this port; 0: a free one, which is printed; default 8080", 0,
+     CLI_NUMBER(Job, http.port, 0, 65535)},
+    {"listen", 0, "ADDRESS", "listen on this address; default 127.0.0.1", 0, CLI_INTO(Job, http.address)},
+    {"textures", 0, "FOLDER", "images that a URL may name; without it there are only colours", 0,
+     CLI_INTO(Job, textures)},
+    {"presets", 0, "FOLDER", "presets that a URL may name, files NAME.json as retex-combine writes them", 0,
+     CLI_INTO(Job, presets)},
+    {"quality", 0, "N", "quality of JPEG, WebP, AVIF and JPEG XL if the URL has none, 1 to 100; default 95", 0,
+     CLI_NUMBER(Job, quality, 1, 100)},
+    {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0, CLI_INTO(Job, memory)},
+    {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0,
+     CLI_INTO(Job, texture_memory)},
+    {"picture-memory", 0, "SIZE", "keep finished pictures of at most SIZE in memory; default 128 MB", 0,
+     CLI_INTO(Job, picture_memory)},
+    {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 512", 0,
+     CLI_NUMBER(Job, queue, 0, 100000)},
+    {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 300", 0,
+     CLI_NUMBER(Job, http.deadline, 0.001, 3600)},
+    {"connections", 0, "N", "accept at most N connections; default 1000", 0,
+     CLI_NUMBER(Job, http.connections, 1, 100000)},
+    {"per-client", 0, "N", "accept at most N connections of one client, N/8 images; 0: any number; default 64", 0,
+     CLI_NUMBER(Job, http.per_client, 0, 100000)},
+    {"trusted-proxy", 0, "ADDRESS", "clients of this proxy, or of a network a.b.c.d/BITS, are those it tells", 0,
+     CLI_CALL(Job, http.proxies, add_proxy)},
+    {"key-file", 0, "FILE", "answer only URLs that are signed by one of the keys in FILE", 0,
+     CLI_CALL(Job, http.keys, read_keys)},
+    {"sign", 0, "URL", "print URL signed by the first key of --key-file, and end", 0, CLI_INTO(Job, sign)},
+    {"min-rate", 0, "N", "close a connection that sends fewer than N bytes of an image a second; default 1000", 0,
+     CLI_NUMBER(Job, http.min_rate, 0, 1e9)},
+    {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0,
+     CLI_NUMBER(Job, http.timeout, 0.1, 3600)},
+    {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0,
+     CLI_NUMBER(Job, http.max_age, 0, 31536000)},
+    {"uploads", 0, "FOLDER", "accept images by POST and keep them in FOLDER; by default none are accepted", 0,
+     CLI_INTO(Job, uploads)},
+    {"upload-size", 0, "SIZE", "accept an image of at most SIZE; default 16 MB", 0, CLI_INTO(Job, upload_size)},
+    {"upload-pixels", 0, "N", "accept an image of at most N pixels; default 25000000", 0,
+     CLI_NUMBER(Job, upload_pixels, 1, 1 << 28)},
+    {"upload-count", 0, "N", "keep at most N images; default 1000", 0, CLI_NUMBER(Job, upload_count, 1, 1000000)},
+    {"upload-total", 0, "SIZE", "keep images of at most SIZE in all; default 1024 MB", 0, CLI_INTO(Job, upload_total)},
+    {"upload-age", 0, "SECONDS", "delete an image after this time; 0: never; default 86400, a day", 0,
+     CLI_NUMBER(Job, upload_age, 0, 1e9)},
+    {"upload-time", 0, "SECONDS", "give up an image that takes longer to decode; default 10", 0,
+     CLI_NUMBER(Job, upload_time, 0.01, 60)},
+    {"base-url", 0, "URL", "the server's URL as clients know it; default that of this machine", 0,
+     CLI_CALL(Job, http.base, take_base)},
+    {0},
+};
+
+static void take_folder(Cli *cli, void *to)
+{
+    Job *job = to;
+    if (job->folder)
+        cli_surplus(cli, "one folder of rooms is enough");
+    job->folder = cli->value;
+}
+
 static void parse(Cli *cli, Job *job)
 {
-    for (const CliOption *option; (option = cli_next(cli));) {
-        if (option == &cli_positional) {
-            if (job->folder)
-                cli_surplus(cli, "one folder of rooms is enough");
-            job->folder = cli->value;
-        } else if (strcmp(option->name, "listen") == 0) {
-            job->http.address = cli->value;
-        } else if (strcmp(option->name, "textures") == 0) {
-            job->textures = cli->value;
-        } else if (strcmp(option->name, "presets") == 0) {
-            job->presets = cli->value;
-        } else if (strcmp(option->name, "uploads") == 0) {
-            job->uploads = cli->value;
-        } else if (strcmp(option->name, "upload-size") == 0) {
-            job->upload_size = cli_size(cli, option);
-        } else if (strcmp(option->name, "upload-total") == 0) {
-            job->upload_total = cli_size(cli, option);
-        } else if (strcmp(option->name, "trusted-proxy") == 0) {
-            add_proxy(cli, &job->http.proxies);
-        } else if (strcmp(option->name, "key-file") == 0) {
-            read_keys(cli, &job->http.keys);
-        } else if (strcmp(option->name, "sign") == 0) {
-            job->sign = cli->value;
-        } else if (strcmp(option->name, "base-url") == 0) {
-            check_base(cli);
-            job->http.base = cli->value;
-        } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_size(cli, option);
-        } else if (strcmp(option->name, "texture-memory") == 0) {
-            job->texture_memory = cli_size(cli, option);
-        } else if (strcmp(option->name, "picture-memory") == 0) {
-            job->picture_memory = cli_size(cli, option);
-        } else {
-            parse_number(cli, option, job);
-        }
-    }
+    cli_parse(cli, job, take_folder);
     if (job->sign && !job->http.keys.count)
         cli_die(cli, "--sign needs a key: add --key-file FILE");
     if (!job->folder && !job->sign)

@@ -13,38 +13,41 @@
 #include "studio/http.h"
 #include "common/watchdog.h"
 
-static const CliOption options[] = {
-    {"port", 0, "N", "listen on this port of 127.0.0.1; 0, the default: a free one", 0},
-    {"no-browser", 0, NULL, "print the address only, without opening it", 0},
-    {"textures", 0, "FOLDER", "show the images of this folder; may be given several times", 0},
-    {"unsafe", 0, NULL, "run the tools without --safe and its limits, for scenes of one's own", 0},
-    {0},
-};
-
 typedef struct Options {
     const char *file, *textures[PLACES_TEXTURES];
     int port, no_browser, is_unsafe, ntextures;
 } Options;
 
+static void take_textures(Cli *cli, const CliOption *option, void *to)
+{
+    Options *given = to;
+    if (given->ntextures == PLACES_TEXTURES)
+        cli_die(cli, "--%s: at most %d folders are taken", option->name, PLACES_TEXTURES);
+    given->textures[given->ntextures++] = cli->value;
+}
+
+static const CliOption options[] = {
+    {"port", 0, "N", "listen on this port of 127.0.0.1; 0, the default: a free one", 0,
+     CLI_NUMBER(Options, port, 0, 65535)},
+    {"no-browser", 0, NULL, "print the address only, without opening it", 0, CLI_INTO(Options, no_browser)},
+    {"textures", 0, "FOLDER", "show the images of this folder; may be given several times", 0,
+     CLI_CALL_OF_ALL(take_textures)},
+    {"unsafe", 0, NULL, "run the tools without --safe and its limits, for scenes of one's own", 0,
+     CLI_INTO(Options, is_unsafe)},
+    {0},
+};
+
+static void take_model(Cli *cli, void *to)
+{
+    Options *given = to;
+    if (given->file)
+        cli_surplus(cli, "one model is enough");
+    given->file = cli->value;
+}
+
 static void parse(Cli *cli, Options *given)
 {
-    for (const CliOption *option; (option = cli_next(cli));) {
-        if (option == &cli_positional) {
-            if (given->file)
-                cli_surplus(cli, "one model is enough");
-            given->file = cli->value;
-        } else if (strcmp(option->name, "port") == 0) {
-            given->port = (int)cli_integer(cli, option, 0, 65535);
-        } else if (strcmp(option->name, "no-browser") == 0) {
-            given->no_browser = 1;
-        } else if (strcmp(option->name, "unsafe") == 0) {
-            given->is_unsafe = 1;
-        } else if (given->ntextures == PLACES_TEXTURES) {
-            cli_die(cli, "--textures: at most %d folders are taken", PLACES_TEXTURES);
-        } else {
-            given->textures[given->ntextures++] = cli->value;
-        }
-    }
+    cli_parse(cli, given, take_model);
     if (given->is_unsafe && cli->access.safe)
         cli_die(cli, "--unsafe cannot be given with --safe or RETEX_SAFE");
 }

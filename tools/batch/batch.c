@@ -11,23 +11,6 @@
 
 /* ---- options ---- */
 
-int batch_option(Batch *batch, const Cli *cli, const CliOption *option)
-{
-    if (strcmp(option->name, "dry-run") == 0)
-        batch->dry_run = 1;
-    else if (strcmp(option->name, "keep-going") == 0)
-        batch->keep_going = 1;
-    else if (strcmp(option->name, "mkdir") == 0)
-        batch->make_folders = 1;
-    else if (strcmp(option->name, "batch-root") == 0)
-        batch->root = cli->value;
-    else if (strcmp(option->name, "report") == 0)
-        batch->report = cli->value;
-    else
-        return 0;
-    return 1;
-}
-
 void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
 {
     const char *given = batch->dry_run        ? "dry-run"

@@ -11,25 +11,35 @@
 #include "batch/sources.h"
 #include "batch/texture_table.h"
 
-/* The options of batches, as rows of the tool's option table. */
-#define BATCH_OPTIONS                                                                                                  \
-    {"dry-run", 0, NULL, "check the table, print the pictures it would make, and stop", 0},                            \
-        {"keep-going", 0, NULL, "continue after a picture that fails", 0},                                             \
-        {"mkdir", 0, NULL, "create missing folders of pictures", 0},                                                   \
-        {"batch-root", 0, "DIR", "write pictures only below DIR", 0},                                                  \
+enum { BATCH_DIGITS = 15 }; /* of fractions in JSON: enough for the four decimals of seconds */
+
+/* The options of batches, as rows of the tool's option table: `batch` is a Batch, a member of the type. */
+#define BATCH_OPTIONS(type, batch)                                                                                     \
+    {"dry-run", 0, NULL, "check the table, print the pictures it would make, and stop", 0,                             \
+     CLI_INTO(type, batch.dry_run)},                                                                                   \
+        {"keep-going", 0, NULL, "continue after a picture that fails", 0, CLI_INTO(type, batch.keep_going)},           \
+        {"mkdir", 0, NULL, "create missing folders of pictures", 0, CLI_INTO(type, batch.make_folders)},               \
+        {"batch-root", 0, "DIR", "write pictures only below DIR", 0, CLI_INTO(type, batch.root)},                      \
     {                                                                                                                  \
-        "report", 0, "FILE.json", "write the result of each picture; - is standard output", 0                          \
+        "report", 0, "FILE.json", "write the result of each picture; - is standard output", 0,                         \
+            CLI_INTO(type, batch.report)                                                                               \
     }
 
 /* The options of large batches, which share their work among processes and compare pictures with a journal. */
-#define BATCH_CATALOGUE_OPTIONS                                                                                        \
-    {"rows", 0, "A-B", "with --batch: only the rows A to B of the table", 0},                                          \
-        {"shard", 0, "I/N", "with --batch: only the Ith of N parts of these rows", 0},                                 \
-        {"manifest", 0, "FILE", "append the sources and the checksum of each picture", 0},                             \
-        {"resume", 0, NULL, "make only pictures that are missing or differ from the manifest", 0},                     \
-        {"verify", 0, NULL, "compare pictures and sources with the manifest; make nothing without --resume", 0},       \
+#define BATCH_CATALOGUE_OPTIONS(type, batch)                                                                           \
+    {"rows", 0, "A-B", "with --batch: only the rows A to B of the table", 0,                                           \
+     CLI_CALL(type, batch.rows_asked, batch_take_rows)},                                                               \
+        {"shard", 0, "I/N", "with --batch: only the Ith of N parts of these rows", 0,                                  \
+         CLI_CALL(type, batch.shard, batch_take_shard)},                                                               \
+        {"manifest", 0, "FILE", "append the sources and the checksum of each picture", 0,                              \
+         CLI_INTO(type, batch.journal_path)},                                                                          \
+        {"resume", 0, NULL, "make only pictures that are missing or differ from the manifest", 0,                      \
+         CLI_INTO(type, batch.resume)},                                                                                \
+        {"verify", 0, NULL, "compare pictures and sources with the manifest; make nothing without --resume", 0,        \
+         CLI_INTO(type, batch.verify)},                                                                                \
     {                                                                                                                  \
-        "plan", 0, NULL, "print how many pictures it would make, their size and time, and stop", 0                     \
+        "plan", 0, NULL, "print how many pictures it would make, their size and time, and stop", 0,                    \
+            CLI_INTO(type, batch.plan)                                                                                 \
     }
 
 /* The texture of one target in one picture, in readable form: a file name or a colour. */
@@ -91,8 +101,6 @@ typedef struct Batch {
                                * may only replace an older report */
 } Batch;
 
-/* Handle an option of BATCH_OPTIONS. Return 0 if it is not one of these. */
-int batch_option(Batch *batch, const Cli *cli, const CliOption *option);
 /* Fail if options of batches are given without `option`, which names the table. */
 void batch_check_options(const Batch *batch, const Cli *cli, const char *option);
 
@@ -135,8 +143,8 @@ int batch_path(const Batch *batch, int row, char path[PATH_MAX], RetexError *err
 
 /* ---- catalogue.c: BATCH_CATALOGUE_OPTIONS ---- */
 
-/* Handle an option of BATCH_CATALOGUE_OPTIONS. Return 0 if it is not one of these. */
-int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option);
+void batch_take_rows(Cli *cli, const CliOption *option, void *pair);
+void batch_take_shard(Cli *cli, const CliOption *option, void *pair);
 /* Fail if they contradict each other, or lack a table or files for their checksums. */
 void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_table, int sources_are_piped);
 /* Find the rows of this process. */

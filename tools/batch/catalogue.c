@@ -19,27 +19,20 @@ static void take_pair(const Cli *cli, const CliOption *option, const char *forma
         cli_die(cli, "--%s: expected %s, not '%s'", option->name, option->argument, cli->value);
 }
 
-int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option)
+void batch_take_rows(Cli *cli, const CliOption *option, void *pair)
 {
-    if (strcmp(option->name, "manifest") == 0)
-        batch->journal_path = cli->value;
-    else if (strcmp(option->name, "resume") == 0)
-        batch->resume = 1;
-    else if (strcmp(option->name, "verify") == 0)
-        batch->verify = 1;
-    else if (strcmp(option->name, "plan") == 0)
-        batch->plan = 1;
-    else if (strcmp(option->name, "rows") == 0) {
-        take_pair(cli, option, "%9d-%9d%n", batch->rows_asked);
-        if (batch->rows_asked[0] < 1 || batch->rows_asked[1] < batch->rows_asked[0])
-            cli_die(cli, "--rows: expected A-B, A from 1 to B, not '%s'", cli->value);
-    } else if (strcmp(option->name, "shard") == 0) {
-        take_pair(cli, option, "%9d/%9d%n", batch->shard);
-        if (batch->shard[0] < 1 || batch->shard[1] < batch->shard[0])
-            cli_die(cli, "--shard: expected I/N, I from 1 to N, not '%s'", cli->value);
-    } else
-        return 0;
-    return 1;
+    const int *rows = pair;
+    take_pair(cli, option, "%9d-%9d%n", pair);
+    if (rows[0] < 1 || rows[1] < rows[0])
+        cli_die(cli, "--rows: expected A-B, A from 1 to B, not '%s'", cli->value);
+}
+
+void batch_take_shard(Cli *cli, const CliOption *option, void *pair)
+{
+    const int *shard = pair;
+    take_pair(cli, option, "%9d/%9d%n", pair);
+    if (shard[0] < 1 || shard[1] < shard[0])
+        cli_die(cli, "--shard: expected I/N, I from 1 to N, not '%s'", cli->value);
 }
 
 void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_table, int sources_are_piped)

@@ -28,7 +28,7 @@ int job_check_samples(const Cli *cli, const Job *job, RetexError *err)
     return fail_samples(cli, job, &why, err);
 }
 
-void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4])
+void job_take_rectangle(Cli *cli, const CliOption *option, void *rectangle)
 {
     int *r = rectangle, length = 0;
     if (sscanf(cli->value, "%d,%d,%d,%d%n", &r[0], &r[1], &r[2], &r[3], &length) != 4 || cli->value[length] ||
@@ -38,19 +38,20 @@ void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4
                 option->name, cli->value);
 }
 
-void job_take_size(const Cli *cli, Job *job)
+void job_take_size(Cli *cli, const CliOption *option, void *to)
 {
+    int *size = to;
     const char *text = cli->value;
     char *end;
     for (int k = 0; k < 2; k++, text = end + 1) {
         const long number = *text >= '0' && *text <= '9' ? strtol(text, &end, 10) : (end = (char *)(uintptr_t)text, 0);
         if (number > RETEX_MAX_SIZE || (end > text && number < 1) || *end != (k ? '\0' : 'x'))
             break;
-        job->scaled[k] = (int)number;
-        if (k && (job->scaled[0] || job->scaled[1]))
+        size[k] = (int)number;
+        if (k && (size[0] || size[1]))
             return;
     }
-    cli_die(cli, "--size: expected WxH in pixels, or Wx or xH to keep the aspect, not '%s'", cli->value);
+    cli_die(cli, "--%s: expected WxH in pixels, or Wx or xH to keep the aspect, not '%s'", option->name, cli->value);
 }
 
 static int load_samples(const Cli *cli, Job *job, RetexError *err)

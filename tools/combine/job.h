@@ -24,7 +24,10 @@ typedef struct Job {
     RetexWriteParams write;
     RetexCombineParams combine;
     RetexDevelop develop;
+    const char *exposure, *white_balance, *view; /* as the command line has them; job_develop reads them from lights */
+    int auto_exposure;
     RetexEdit *lights; /* of the command line: lamps, finishes, and how the picture is developed */
+    RetexEdit *solo;   /* --solo, while the command line is read */
     float parameters[3 * RETEX_PARAMETERS_MAX];
     RetexSet *set;         /* rows are read when they are needed */
     RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
@@ -41,10 +44,9 @@ int job_check_samples(const Cli *cli, const Job *job, RetexError *err);
 /* Open the set, and the samples from the same stream or from a separate file. */
 int job_open(const Cli *cli, Job *job, RetexError *err);
 void job_close(Job *job);
-/* Parse --crop or --region: x, y, width, height. */
-void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4]);
-/* Parse --size. */
-void job_take_size(const Cli *cli, Job *job);
+/* Parse --crop or --region: x, y, width, height; and --size: width, height. */
+void job_take_rectangle(Cli *cli, const CliOption *option, void *rectangle);
+void job_take_size(Cli *cli, const CliOption *option, void *size);
 /* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
 int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
 /* Develop the picture as an edit says, and show it in its view, which is borrowed from the edit. */

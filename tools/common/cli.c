@@ -21,29 +21,6 @@
 
 const CliOption cli_positional = {"", 0, NULL, NULL, 0};
 
-const CliOption cli_common_options[] = {
-    {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
-    {"threads", 0, "N", "use N threads; 0, the default, uses all cores", 0},
-    {"safe", 0, NULL,
-     "refuse devices and rare picture formats; scenes read only their own folder; limits of 2G, 60 seconds and "
-     "33177600 "
-     "pixels, unless others are given; also RETEX_SAFE=1",
-     0},
-    {"accept-damaged", 0, NULL, "read damaged pictures as far as possible, with a warning; also RETEX_ACCEPT_DAMAGED=1",
-     0},
-    {"max-memory", 0, "SIZE",
-     "use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also "
-     "RETEX_MAX_MEMORY",
-     0},
-    {"max-time", 0, "SECONDS", "stop after this time; also RETEX_MAX_TIME", 0},
-    {"max-pixels", 0, "N", "refuse pictures of more pixels; default 268435456; also RETEX_MAX_PIXELS", 0},
-    {"quiet", 'q', NULL, "print only warnings and errors", 0},
-    {"verbose", 'v', NULL, "print more", 0},
-    {"help", 'h', NULL, "print this help and exit", 0},
-    {"version", 'V', NULL, "print the version and exit", 0},
-    {0},
-};
-
 /* Called before the first option is parsed. Open closed standard descriptors, so that no other file gets their numbers;
  * they are opened in the wrong direction, so that using them still fails. Ignore SIGXFSZ: a file size limit is then a
  * write error like a full disk. The watchdog takes over the terminating signals. */
@@ -122,8 +99,9 @@ static void print_options(const CliOption *options)
     }
 }
 
-static _Noreturn void print_help(const Cli *cli)
+static void print_help(Cli *cli, const CliOption *option, void *job)
 {
+    (void)option, (void)job;
     printf("Usage: %s %s\n\n", cli->tool, cli->usage);
     print_wrapped(cli->about, 0, 0);
     putchar('\n');
@@ -135,8 +113,9 @@ static _Noreturn void print_help(const Cli *cli)
     exit(cli_close(cli, CLI_OK));
 }
 
-static _Noreturn void print_version(const Cli *cli)
+static void print_version(Cli *cli, const CliOption *option, void *job)
 {
+    (void)option, (void)job;
     printf("%s %s\n", cli->tool, RETEX_VERSION);
     exit(cli_close(cli, CLI_OK));
 }
@@ -213,33 +192,51 @@ static const CliOption *short_option(Cli *cli)
     return option;
 }
 
+/* --- options of all tools --- */
+
+static void take_output(Cli *cli, const CliOption *option, void *output)
+{
+    if (!*cli->value)
+        cli_die(cli, "--%s: the name is empty", option->name);
+    *(const char **)output = cli->value;
+}
+
+static void take_limit(Cli *cli, const CliOption *option, void *limits)
+{
+    (void)limits;
+    cli_limit(cli, option);
+}
+
+const CliOption cli_common_options[] = {
+    {"output", 'o', "FILE", "write to FILE; - is standard output", 0, CLI_CALL(Cli, output, take_output)},
+    {"threads", 0, "N", "use N threads; 0, the default, uses all cores", 0, CLI_NUMBER(Cli, threads, 0, 256)},
+    {"safe", 0, NULL,
+     "refuse devices and rare picture formats; scenes read only their own folder; limits of 2G, 60 seconds and "
+     "33177600 pixels, unless others are given; also RETEX_SAFE=1",
+     0, CLI_INTO(Cli, access.safe)},
+    {"accept-damaged", 0, NULL, "read damaged pictures as far as possible, with a warning; also RETEX_ACCEPT_DAMAGED=1",
+     0, CLI_INTO(Cli, access.accept_damaged)},
+    {"max-memory", 0, "SIZE",
+     "use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also "
+     "RETEX_MAX_MEMORY",
+     0, CLI_CALL_OF_ALL(take_limit)},
+    {"max-time", 0, "SECONDS", "stop after this time; also RETEX_MAX_TIME", 0, CLI_CALL_OF_ALL(take_limit)},
+    {"max-pixels", 0, "N", "refuse pictures of more pixels; default 268435456; also RETEX_MAX_PIXELS", 0,
+     CLI_CALL_OF_ALL(take_limit)},
+    {"quiet", 'q', NULL, "print only warnings and errors", 0, CLI_INTO(Cli, quiet)},
+    {"verbose", 'v', NULL, "print more", 0, CLI_INTO(Cli, verbose)},
+    {"help", 'h', NULL, "print this help and exit", 0, CLI_CALL_OF_ALL(print_help)},
+    {"version", 'V', NULL, "print the version and exit", 0, CLI_CALL_OF_ALL(print_version)},
+    {0},
+};
+
 /* Handle an option that every tool has. Return 0 if it is not one of these. */
 static int common_option(Cli *cli, const CliOption *option)
 {
     const size_t count = sizeof cli_common_options / sizeof *cli_common_options;
     if (option < cli_common_options || option >= cli_common_options + count)
         return 0;
-    if (strcmp(option->name, "output") == 0) {
-        if (!*cli->value)
-            cli_die(cli, "--output: the name is empty");
-        cli->output = cli->value;
-    } else if (strcmp(option->name, "threads") == 0) {
-        cli->threads = (int)cli_integer(cli, option, 0, 256);
-    } else if (strcmp(option->name, "safe") == 0) {
-        cli->access.safe = 1;
-    } else if (strcmp(option->name, "accept-damaged") == 0) {
-        cli->access.accept_damaged = 1;
-    } else if (strncmp(option->name, "max-", 4) == 0) {
-        cli_limit(cli, option);
-    } else if (strcmp(option->name, "quiet") == 0) {
-        cli->quiet = 1;
-    } else if (strcmp(option->name, "verbose") == 0) {
-        cli->verbose = 1;
-    } else if (strcmp(option->name, "help") == 0) {
-        print_help(cli);
-    } else {
-        print_version(cli);
-    }
+    cli_take(cli, option, cli);
     return 1;
 }
 
@@ -332,6 +329,38 @@ uint64_t cli_size(const Cli *cli, const CliOption *option)
     return bytes;
 }
 
+int cli_take(Cli *cli, const CliOption *option, void *job)
+{
+    const CliInto *into = &option->into;
+    void *member = (char *)job + into->at;
+    if (into->type == CLI_ELSEWHERE)
+        return 0;
+    if (into->type == CLI_TAKEN)
+        into->take(cli, option, member);
+    else if (into->type == CLI_TEXT)
+        *(const char **)member = cli->value;
+    else if (into->type == CLI_INT)
+        *(int *)member = into->is_number ? (int)cli_integer(cli, option, (long)into->low, (long)into->high) : 1;
+    else if (into->type == CLI_LONG)
+        *(long *)member = cli_integer(cli, option, (long)into->low, (long)into->high);
+    else if (into->type == CLI_FLOAT)
+        *(float *)member = (float)cli_number(cli, option, into->low, into->high);
+    else if (into->type == CLI_DOUBLE)
+        *(double *)member = cli_number(cli, option, into->low, into->high);
+    else
+        *(uint64_t *)member = cli_size(cli, option);
+    return 1;
+}
+
+void cli_parse(Cli *cli, void *job, void (*argument)(Cli *cli, void *job))
+{
+    for (const CliOption *option; (option = cli_next(cli));)
+        if (option == &cli_positional)
+            argument(cli, job);
+        else if (!cli_take(cli, option, job))
+            cli_die(cli, "--%s: nothing takes it", option->name); /* a mistake in the table */
+}
+
 /* --- messages --- */
 
 char *cli_plain(char *text)
@@ -399,6 +428,14 @@ void cli_warn(const Cli *cli, const char *fmt, ...)
 void cli_warn_text(void *cli, const char *text)
 {
     cli_warn(cli, "%s", text);
+}
+
+void cli_note(void *cli, int important, const char *text)
+{
+    if (important)
+        cli_info(cli, "%s", text);
+    else
+        cli_detail(cli, "%s", text);
 }
 
 void cli_message(const Cli *cli, const char *text)
@@ -581,8 +618,9 @@ static void progress_bar(const char *label, double done, double elapsed)
         fprintf(stderr, "\r%s [%s] %3.0f%%\033[K", label, bar, 100 * done);
 }
 
-void cli_take_progress(Cli *cli)
+void cli_take_progress(Cli *cli, const CliOption *option, void *job)
 {
+    (void)option, (void)job;
     if (strcmp(cli->value, "json") != 0)
         cli_die(cli, "--progress: expected json, not '%s'", cli->value);
     cli->json_progress = 1;

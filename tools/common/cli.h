@@ -2,6 +2,7 @@
 #ifndef RETEX_CLI_H
 #define RETEX_CLI_H
 
+#include <stddef.h>
 #include <stdio.h>
 
 #include <retex/access.h>
@@ -10,20 +11,43 @@
 
 enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
 
+typedef struct Cli Cli;
+typedef struct CliOption CliOption;
+
+/* Where the value of an option goes: into a member of what the command line asks for, a structure of the tool. */
+typedef struct CliInto {
+    enum { CLI_ELSEWHERE, CLI_TEXT, CLI_INT, CLI_LONG, CLI_FLOAT, CLI_DOUBLE, CLI_SIZE, CLI_TAKEN } type;
+    size_t at;     /* the member's offset */
+    int is_number; /* from low to high; else an int becomes 1 */
+    double low, high;
+    void (*take)(Cli *cli, const CliOption *option, void *member); /* of CLI_TAKEN: parses cli->value */
+} CliInto;
+
+/* The last field of an option's row: a text, a size in bytes, or a flag, by the type of the member; a number within
+ * bounds; or what a function makes of cli->value. */
+#define CLI_INTO(type, member) {CLI_TYPE_OF(type, member), offsetof(type, member), 0, 0, 0, NULL}
+#define CLI_NUMBER(type, member, low, high) {CLI_TYPE_OF(type, member), offsetof(type, member), 1, low, high, NULL}
+#define CLI_CALL(type, member, take) {CLI_TAKEN, offsetof(type, member), 0, 0, 0, take}
+#define CLI_CALL_OF_ALL(take) {CLI_TAKEN, 0, 0, 0, 0, take} /* with the whole structure */
+#define CLI_TYPE_OF(type, member)                                                                                      \
+    _Generic(((type *)0)->member, const char *: CLI_TEXT, int: CLI_INT, long: CLI_LONG, float: CLI_FLOAT,              \
+             double: CLI_DOUBLE, uint64_t: CLI_SIZE)
+
 /* One option of a tool. A table of them ends with {0}. */
-typedef struct CliOption {
+struct CliOption {
     const char *name;      /* long name without dashes */
     char letter;           /* one-letter form, or 0 */
     const char *argument;  /* the argument's name in --help; NULL: takes no argument; `=NAME`: may be left out, and is
                               given as `--name=VALUE` only. Completion goes by it: see complete.c */
     const char *help;      /* text of --help */
     int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
-} CliOption;
+    CliInto into;          /* missing: the tool takes it from cli_next */
+};
 
 /* State of parsing argv. Every tool has the common options (-o/--output, --threads, --safe, -q, -v, -h/--help,
  * -V/--version). --help lists them. --help and --version are answered here (stdout, exit 0); the values of the others
  * are stored in the fields below. */
-typedef struct Cli {
+struct Cli {
     const char *tool;        /* "retex-sample": the prefix of every message */
     const char *usage;       /* "SET --texture[:opts] NAME=IMAGE … [-o SAMPLES]" */
     const char *about;       /* one sentence, for --help */
@@ -48,7 +72,11 @@ typedef struct Cli {
     FILE *answer;            /* what a tool whose output is text prints to; see cli_answer */
     char *answer_text;       /* its text, where -o names a file */
     size_t answer_bytes;
-} Cli;
+};
+
+/* Parse the command line: options go into `job`, a structure of the type that their rows name, as they are read;
+ * `argument` is called for each positional argument, with its text in cli->value. */
+void cli_parse(Cli *cli, void *job, void (*argument)(Cli *cli, void *job));
 
 /* Return the next option of the tool's own table and set cli->value and cli->modifiers. Return &cli_positional for a
  * positional argument, with its text in cli->value ("-" is positional), and NULL at the end. Long options take
@@ -56,6 +84,9 @@ typedef struct Cli {
  * CLI_FAIL. */
 const CliOption *cli_next(Cli *cli);
 extern const CliOption cli_positional;
+
+/* Put the value of an option that cli_next has returned where its row says. 0: it does not say. */
+int cli_take(Cli *cli, const CliOption *option, void *job);
 
 /* Find an option by name (length bytes) or, if name is NULL, by letter. The tool's own options come first. NULL: there
  * is none. */
@@ -91,6 +122,8 @@ void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
 void cli_warn_text(void *cli, const char *text);
 void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
 void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
+/* cli_info of what is important, else cli_detail, as a callback for libraries; cli is a Cli. */
+void cli_note(void *cli, int important, const char *text);
 void cli_message(const Cli *cli, const char *text);                       /* unchanged, also with -q */
 _Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);    /* usage error: exit 2 */
 _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
@@ -155,9 +188,13 @@ void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path);
 /* Open a set, and load it if it takes at most `memory` bytes of it. */
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memory, RetexError *err);
 
-/* --progress, for the tools that have it: a row of their option table, and its handler. */
-#define CLI_PROGRESS_OPTION {"progress", 0, "json", "print progress as lines of JSON on standard error", 0}
-void cli_take_progress(Cli *cli);
+/* --progress, for the tools that have it: a row of their option table. */
+#define CLI_PROGRESS_OPTION                                                                                            \
+    {                                                                                                                  \
+        "progress", 0, "json", "print progress as lines of JSON on standard error", 0,                                 \
+            CLI_CALL_OF_ALL(cli_take_progress)                                                                         \
+    }
+void cli_take_progress(Cli *cli, const CliOption *option, void *job);
 
 /* Show progress on stderr. On a terminal and without -q: a bar with the elapsed and the remaining time. Elsewhere with
  * -v: a line every 30 seconds. With --progress json, or RETEX_PROGRESS=json, which leaves messages as they are: one

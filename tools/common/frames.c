@@ -20,8 +20,9 @@ static const char *read_number(const char *text, int *number)
     return digits ? text : NULL;
 }
 
-void frames_take(const Cli *cli, const CliOption *option, FrameRange *range)
+void frames_take(Cli *cli, const CliOption *option, void *to)
 {
+    FrameRange *range = to;
     const char *text = read_number(cli->value, &range->first);
     range->last = range->first;
     range->step = 1;

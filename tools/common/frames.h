@@ -11,16 +11,18 @@ typedef struct FrameRange {
 
 enum { FRAMES_MAX = 100000 }; /* in one command */
 
-#define FRAMES_OPTION                                                                                                  \
+/* Its row, for a FrameRange. */
+#define FRAMES_OPTION(type, member)                                                                                    \
     {                                                                                                                  \
-        "frames", 0, "A-B[xS]", "make frames A to B, every S-th; %04d in names is the frame's number", 0               \
+        "frames", 0, "A-B[xS]", "make frames A to B, every S-th; %04d in names is the frame's number",                 \
+            0, CLI_CALL(type, member, frames_take)                                                                     \
     }
 
 /* The next frame after `frame`; a loop goes while it is at most `last`. */
 #define FOR_FRAMES(frame, range) for (int frame = (range).first; frame <= (range).last; frame += (range).step)
 
 /* Parse --frames: A, A-B or A-BxS. */
-void frames_take(const Cli *cli, const CliOption *option, FrameRange *range);
+void frames_take(Cli *cli, const CliOption *option, void *range);
 int frames_count(const FrameRange *range);
 /* Exit with an error if there are more than FRAMES_MAX. */
 void frames_check_count(const Cli *cli, const FrameRange *range);

@@ -50,8 +50,11 @@ static inline int texture_args_parse(const Cli *cli, RetexTextureSpec *specs, in
     return code;
 }
 
-static inline void texture_args_add(const Cli *cli, TextureArgs *args)
+/* Of an option's row: CLI_CALL(type, member, texture_args_add), for TextureArgs. */
+static inline void texture_args_add(Cli *cli, const CliOption *option, void *to)
 {
+    (void)option;
+    TextureArgs *args = to;
     RetexError err = {0};
     if (args->count == RETEX_MAX_TARGETS)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
