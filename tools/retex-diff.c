@@ -6,7 +6,7 @@
 #include <retex/diff.h>
 
 #include "common/cli.h"
-#include "common/json_text.h"
+#include "common/json.h"
 
 typedef struct Request {
     RetexDiffParams params;
@@ -46,62 +46,39 @@ static void parse(Cli *cli, Request *request)
         cli_die(cli, "--part and --all-parts exclude each other");
 }
 
-/* Print a figure, or null if it is not defined: the part has no colours. */
-static void print_json_figure(FILE *out, const char *name, double value, int defined)
+/* A figure, or null if it is not defined: the part has no colours. */
+static json_t *figure(double value, int defined)
 {
-    if (defined)
-        fprintf(out, "\"%s\": %.9g, ", name, value);
-    else
-        fprintf(out, "\"%s\": null, ", name);
+    return defined ? json_of_number(value) : json_null();
 }
 
-/* Print the keys of one part, without braces. */
-static void print_json_part(FILE *out, const RetexDiffPart *part)
+static json_t *describe_part(const RetexDiffPart *part)
 {
     const RetexMetrics *m = &part->metrics;
-    int color = part->compared && part->has_color;
-    fprintf(out, "\"part\": ");
-    json_text(out, part->name);
-    fprintf(out, ", \"width\": %d, \"height\": %d, \"channels\": %d, ", part->width, part->height, part->channels);
-    print_json_figure(out, "psnr", m->psnr, color);
-    print_json_figure(out, "relmse", m->relmse, color);
-    print_json_figure(out, "mae", m->mae, part->compared);
-    print_json_figure(out, "flip_mean", m->flip_mean, color);
-    print_json_figure(out, "flip_p99", m->flip_p99, color);
-    print_json_figure(out, "max_abs", m->max_abs, part->compared);
-    print_json_figure(out, "max_rel", m->max_rel, part->compared);
-    fprintf(out, "\"nonfinite\": %ld, ", m->nonfinite);
-    if (part->compared) {
-        fprintf(out, "\"worst\": {\"x\": %d, \"y\": %d, \"channel\": ", m->worst.x, m->worst.y);
-        json_text(out, part->worst_channel);
-        fprintf(out, "}, ");
-    } else {
-        fprintf(out, "\"worst\": null, ");
-    }
-    fprintf(out, "\"reason\": ");
-    json_text(out, part->reason);
+    const int color = part->compared && part->has_color;
+    json_t *worst = part->compared ? json_pack("{s:i, s:i, s:o}", "x", m->worst.x, "y", m->worst.y, "channel",
+                                               json_of_text(part->worst_channel))
+                                   : json_null();
+    return json_pack("{s:o, s:i, s:i, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:o, s:o}", "part",
+                     json_of_text(part->name), "width", part->width, "height", part->height, "channels",
+                     part->channels, "psnr", figure(m->psnr, color), "relmse", figure(m->relmse, color), "mae",
+                     figure(m->mae, part->compared), "flip_mean", figure(m->flip_mean, color), "flip_p99",
+                     figure(m->flip_p99, color), "max_abs", figure(m->max_abs, part->compared), "max_rel",
+                     figure(m->max_rel, part->compared), "nonfinite", (json_int_t)m->nonfinite, "worst", worst,
+                     "reason", json_of_text(part->reason));
 }
 
-/* Print the first part's figures; with --all-parts also a list of all parts. */
-static void print_json(FILE *out, const RetexDiff *diff, int all_parts)
+/* The first part's figures; with --all-parts also a list of all parts. */
+static json_t *describe(const RetexDiff *diff, int all_parts)
 {
-    fprintf(out, "{\"differs\": %s, ", diff->differs ? "true" : "false");
-    if (diff->nparts)
-        print_json_part(out, &diff->parts[0]);
-    else
-        print_json_part(out, &(RetexDiffPart){0});
-    if (all_parts) {
-        fprintf(out, ", \"parts\": [");
-        for (int i = 0; i < diff->nparts; i++) {
-            fprintf(out, "%s{", i ? ", " : "");
-            print_json_part(out, &diff->parts[i]);
-            fprintf(out, "}");
-        }
-        fprintf(out, "]");
-    }
-    fprintf(out, ", \"why\": ");
-    json_text(out, diff->reason);
-    fprintf(out, "}\n");
+    json_t *whole = json_pack("{s:b}", "differs", diff->differs), *parts = all_parts ? json_array() : NULL;
+    json_object_update_new(whole, describe_part(diff->nparts ? &diff->parts[0] : &(RetexDiffPart){0}));
+    for (int i = 0; parts && i < diff->nparts; i++)
+        json_add(&parts, describe_part(&diff->parts[i]));
+    if (parts)
+        json_object_set_new(whole, "parts", parts);
+    json_object_set_new(whole, "why", json_of_text(diff->reason));
+    return whole;
 }
 
 /* Print one line per part: its figures, and why it differs. */
@@ -149,8 +126,8 @@ int main(int argc, char **argv)
     if (retex_diff(&diff, request.names[0], request.names[1], params, cli.threads, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;
-    if (request.json)
-        print_json(cli.answer, diff, params->all_parts);
+    if (request.json && json_print_line(cli.answer, describe(diff, params->all_parts), 9))
+        cli_die(&cli, "not enough memory");
     for (int i = 0; !request.json && !cli.quiet && i < diff->nparts; i++)
         print_line(cli.answer, &diff->parts[i], params->all_parts);
     if (!request.json && !cli.quiet && differs && (!diff->nparts || params->all_parts))

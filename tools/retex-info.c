@@ -301,7 +301,7 @@ static void print_text(FILE *out, const RetexSet *set, const RetexSamples *sampl
     print_packed(out, set);
 }
 
-/* Print the manifest, with the sizes before its first key. */
+/* Print the manifest, with the sizes before its first key. Its numbers stay as the set has them, to the last digit. */
 static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
     FILE *out = cli->answer;

@@ -472,7 +472,7 @@ $ retex-combine -q s.exr --batch ../t --dry-run --report -
 $ printf 'output,floor\n"a\301\200\303\251\377\n""b.png","rgb(1,0,0)"\n' >../t
 $ retex-combine -q s.exr --batch ../t --report ../report
 $ grep -a output ../report | cut -d , -f 3
->  "output": "a\ufffd\ufffdé\ufffd\u000a\"b.png"
+>  "output": "a��é�\n\"b.png"
 $ rm a*
 
 # Pictures that fail when they are made: the first ends the batch, unless --keep-going. A texture that could not be loaded

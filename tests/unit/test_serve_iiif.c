@@ -223,14 +223,10 @@ static void test_canonical_links(void **state)
 static void test_info(void **state)
 {
     ServeRequest request;
-    char text[4096] = "";
     (void)state;
     assert_int_equal(serve_request_parse(&request, "/iiif/3/r%C3%A4ume;Floor=oak/info.json", NULL, ALL), 0);
     assert_int_equal(request.route, SERVE_IIIF_INFO);
-    FILE *file = fmemopen(text, sizeof text, "w");
-    iiif_info_write(file, &request, "https://a.b", 1999, 1001, ALL & ~(1u << SERVE_AVIF));
-    fclose(file);
-    json_t *info = json_loads(text, JSON_REJECT_DUPLICATES, NULL),
+    json_t *info = iiif_info(&request, "https://a.b", 1999, 1001, ALL & ~(1u << SERVE_AVIF)),
            *expected = json_pack(
                "{s:s,s:s,s:s,s:s,s:s,s:i,s:i,s:[{s:i,s:i},{s:i,s:i},{s:i,s:i}],s:[{s:i,s:[i,i,i]}],s:[s,s],s:[s,s],"
                "s:[s,s,s]}",
@@ -242,8 +238,8 @@ static void test_info(void **state)
     assert_non_null(info);
     assert_non_null(expected);
     if (!json_equal(info, expected))
-        fail_msg("%s", text);
-    assert_non_null(strstr(text, "{\n  \"@context\"")); /* the first key, as it should be */
+        fail_msg("%s", json_dumps(info, 0));
+    assert_string_equal(json_object_iter_key(json_object_iter(info)), "@context"); /* the first key, as it should be */
     json_decref(info);
     json_decref(expected);
     assert_int_equal(serve_request_parse(&request, "/iiif/3/room", NULL, ALL), 0);

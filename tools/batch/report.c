@@ -7,6 +7,7 @@
 #include <retex/retex.h>
 
 #include "batch/batch.h"
+#include "common/json.h"
 #include "common/json_text.h"
 #include "common/texture_args.h"
 
@@ -20,78 +21,34 @@ static const char *status_name(const Batch *batch, const BatchRow *row)
                                          : "not made";
 }
 
-/* The keys of one row, without braces. */
-static void print_row(FILE *file, const Batch *batch, int row)
+static json_t *describe_row(const Batch *batch, int row)
 {
     const BatchRow *r = &batch->rows[row];
-    fprintf(file, "\"row\": %d, \"line\": %d, \"output\": ", row + 1, batch->table.rows[row].line);
-    json_text(file, texture_table_output(&batch->table, row));
-    fprintf(file, ", \"status\": \"%s\", \"seconds\": %.4f", status_name(batch, r), r->seconds);
-    if (r->error) {
-        fprintf(file, ", \"error\": ");
-        json_text(file, r->error);
-    }
-}
-
-/* A line of JSON is collected and written at once, so that output of other programs does not split it. */
-typedef struct Line {
-    FILE *file;
-    char *text;
-    size_t bytes;
-} Line;
-
-/* Returns the line's file, NULL without memory. */
-static FILE *begin_line(Line *line)
-{
-    line->text = NULL;
-    line->file = open_memstream(&line->text, &line->bytes);
-    if (line->file)
-        fputc('{', line->file);
-    return line->file;
-}
-
-static void print_line(Line *line)
-{
-    fputs("}\n", line->file);
-    if (fclose(line->file) == 0)
-        fputs(line->text, stderr);
-    free(line->text);
+    return json_pack("{s:i, s:i, s:o, s:s, s:o, s:o*}", "row", row + 1, "line", batch->table.rows[row].line, "output",
+                     json_of_text(texture_table_output(&batch->table, row)), "status", status_name(batch, r),
+                     "seconds", json_of_rounded(r->seconds, 4), "error", r->error ? json_of_text(r->error) : NULL);
 }
 
 void batch_report_row(const Batch *batch, int row)
 {
-    Line line;
-    FILE *file = begin_line(&line);
-    if (!file)
-        return;
-    print_row(file, batch, row);
-    fprintf(file, ", \"done\": %d, \"total\": %d", batch->kept + batch->made + batch->failed,
-            batch->end - batch->first);
-    print_line(&line);
+    json_t *line = describe_row(batch, row);
+    json_object_set_new(line, "done", json_integer(batch->kept + batch->made + batch->failed));
+    json_object_set_new(line, "total", json_integer(batch->end - batch->first));
+    (void)json_print_line(stderr, line, BATCH_DIGITS);
 }
 
-/* The keys of the whole batch. */
-static void print_totals(FILE *file, const Batch *batch)
+/* Of the whole batch. */
+static json_t *describe_totals(const Batch *batch)
 {
-    fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, ", batch->end - batch->first, batch->made,
-            batch->failed);
-    if (batch->resume)
-        fprintf(file, "\"kept\": %d, ", batch->kept);
-    fprintf(file, "\"seconds\": %.4f", retex_clock_seconds() - batch->began);
-    if (batch->error) {
-        fprintf(file, ", \"error\": ");
-        json_text(file, batch->error);
-    }
+    return json_pack("{s:i, s:i, s:i, s:o*, s:o, s:o*}", "total", batch->end - batch->first, "made", batch->made,
+                     "failed", batch->failed, "kept", batch->resume ? json_integer(batch->kept) : NULL, "seconds",
+                     json_of_rounded(retex_clock_seconds() - batch->began, 4), "error",
+                     batch->error ? json_of_text(batch->error) : NULL);
 }
 
 void batch_report_end(const Batch *batch)
 {
-    Line line;
-    FILE *file = begin_line(&line);
-    if (!file)
-        return;
-    print_totals(file, batch);
-    print_line(&line);
+    (void)json_print_line(stderr, describe_totals(batch), BATCH_DIGITS);
 }
 
 /* ---- the report ---- */
@@ -109,20 +66,28 @@ int batch_report_is_free(const char *path)
     return got == sizeof begin - 1 && strcmp(begin, REPORT_BEGIN) == 0;
 }
 
-static void print_textures(FILE *file, const Batch *batch, int row)
+static json_t *describe_textures(const Batch *batch, int row)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     BatchTexture textures[RETEX_MAX_TARGETS];
     int count = texture_table_textures(&batch->table, row, specs);
     count = batch->tool.describe(batch->tool.context, specs, count, textures);
-    fprintf(file, ", \"textures\": {");
+    json_t *all = json_object();
     for (int i = 0; i < count; i++) {
-        fprintf(file, i ? ", " : "");
-        json_text(file, textures[i].target);
-        fprintf(file, ": ");
-        json_text(file, textures[i].texture);
+        json_t *target = json_of_text(textures[i].target);
+        json_object_set_new(all, json_string_value(target), json_of_text(textures[i].texture));
+        json_decref(target);
     }
-    fprintf(file, "}");
+    return all;
+}
+
+/* An item of a list, in a line of its own. Rows are written one by one: there may be a million. */
+static void print_item(FILE *file, int is_first, json_t *item)
+{
+    char *text = json_dumps(item, JSON_REAL_PRECISION(BATCH_DIGITS));
+    fprintf(file, "%s\n    %s", is_first ? "" : ",", text ? text : "null");
+    free(text);
+    json_decref(item);
 }
 
 static void print_mistakes(FILE *file, const Batch *batch, int first, int end)
@@ -130,13 +95,11 @@ static void print_mistakes(FILE *file, const Batch *batch, int first, int end)
     const TextureTable *table = &batch->table;
     int printed = 0;
     fprintf(file, "  \"mistakes\": [");
-    for (int i = 0; i < table->kept; i++) {
-        if (!texture_table_concerns(&table->mistakes[i], first, end))
-            continue;
-        fprintf(file, "%s\n    {\"line\": %d, \"error\": ", printed++ ? "," : "", table->mistakes[i].line);
-        json_text(file, table->mistakes[i].message ? table->mistakes[i].message : "");
-        fprintf(file, "}");
-    }
+    for (int i = 0; i < table->kept; i++)
+        if (texture_table_concerns(&table->mistakes[i], first, end))
+            print_item(file, !printed++,
+                       json_pack("{s:i, s:o}", "line", table->mistakes[i].line, "error",
+                                 json_of_text(table->mistakes[i].message ? table->mistakes[i].message : "")));
     fprintf(file, "%s],\n", printed ? "\n  " : "");
 }
 
@@ -146,20 +109,22 @@ static void print_report(FILE *file, const Batch *batch)
     const int good = !batch_only_verifies(batch) || batch->states[PICTURE_GOOD] == batch->end - batch->first;
     const int refused = table->wrong || (table->nmistakes && !batch->keep_going);
     const int wrong = refused || batch->error || batch->failed || !good;
+    json_t *totals = describe_totals(batch);
+    char *text = json_dumps(totals, JSON_REAL_PRECISION(BATCH_DIGITS));
+    json_decref(totals);
     fprintf(file, REPORT_BEGIN "%s\", \"version\": \"%s\", \"table\": ", batch->cli->tool + strlen("retex-"),
             RETEX_VERSION);
     json_text(file, table->name);
     fprintf(file, ",\n  \"status\": \"%s\", ", wrong ? "failed" : batch->dry_run || batch->plan ? "checked" : "made");
-    print_totals(file, batch);
-    fprintf(file, ",\n");
+    fprintf(file, "%.*s,\n", text ? (int)strlen(text) - 2 : 0, text ? text + 1 : ""); /* without braces */
+    free(text);
     print_mistakes(file, batch, refused ? 0 : batch->first, refused ? table->nrows : batch->end);
     fprintf(file, "  \"rows\": [");
     for (int row = batch->first; row < batch->end; row++) {
-        fprintf(file, "%s\n    {", row > batch->first ? "," : "");
-        print_row(file, batch, row);
+        json_t *item = describe_row(batch, row);
         if (!refused && !table->rows[row].wrong) /* otherwise names may be wrong */
-            print_textures(file, batch, row);
-        fprintf(file, "}");
+            json_object_set_new(item, "textures", describe_textures(batch, row));
+        print_item(file, row == batch->first, item);
     }
     fprintf(file, "%s]\n}\n", batch->end > batch->first ? "\n  " : "");
 }

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "combine/job.h"
-#include "common/json_text.h"
+#include "common/json.h"
 #include "common/watchdog.h"
 
 int job_describe(const Job *job, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS])
@@ -198,10 +198,10 @@ void job_report(const Cli *cli, const char *output, double began, int done, int 
 {
     if (!cli->json_progress)
         return;
-    fprintf(stderr, "{\"output\": ");
-    json_text(stderr, output);
-    fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": %d, \"total\": %d}\n",
-            retex_clock_seconds() - began, done, total);
+    (void)json_print_line(stderr,
+                    json_pack("{s:o, s:s, s:o, s:i, s:i}", "output", json_of_text(output), "status", "made", "seconds",
+                              json_of_rounded(retex_clock_seconds() - began, 4), "done", done, "total", total),
+                    BATCH_DIGITS);
 }
 
 int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err)

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "common/json_text.h"
+#include "common/json.h"
 
 void reply_header(Reply *reply, const char *name, const char *value)
 {
@@ -44,34 +44,28 @@ Reply reply_file(int status, const char *type, int descriptor, off_t first, off_
     return of_response(status, type, response);
 }
 
+/* response NULL where there is no memory. */
+static Reply of_json(int status, json_t *value, size_t style)
+{
+    char *text = value ? json_dumps(value, style | JSON_ENCODE_ANY) : NULL;
+    json_decref(value);
+    return text ? reply_bytes(status, "application/json", text, strlen(text)) : (Reply){status, NULL};
+}
+
 Reply reply_json(int status, json_t *value)
 {
-    char *text = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY) : NULL;
-    json_decref(value);
-    if (!text)
-        return reply_error(MHD_HTTP_INTERNAL_SERVER_ERROR, "not enough memory");
-    return reply_bytes(status, "application/json", text, strlen(text));
+    const Reply reply = of_json(status, value, JSON_COMPACT);
+    return reply.response ? reply : reply_error(MHD_HTTP_INTERNAL_SERVER_ERROR, "not enough memory");
 }
 
 Reply reply_error(int status, const char *fmt, ...)
 {
-    char line[1024], *text = NULL;
-    size_t bytes = 0;
+    char line[1024];
     va_list args;
     va_start(args, fmt);
     vsnprintf(line, sizeof line, fmt, args);
     va_end(args);
-    FILE *file = open_memstream(&text, &bytes);
-    if (!file)
-        return (Reply){status, NULL};
-    fputs("{\"error\": ", file);
-    json_text(file, line);
-    fputs("}\n", file);
-    if (fclose(file) != 0) {
-        free(text);
-        return (Reply){status, NULL};
-    }
-    return reply_bytes(status, "application/json", text, bytes);
+    return of_json(status, json_pack("{s:o}", "error", json_of_text(line)), 0);
 }
 
 Reply reply_of_error(const RetexError *err)
@@ -81,19 +75,4 @@ Reply reply_of_error(const RetexError *err)
                        : err->code == RETEX_ENOTFOUND                      ? MHD_HTTP_NOT_FOUND
                                                                            : MHD_HTTP_UNPROCESSABLE_CONTENT;
     return reply_error(status, "%s", err->message);
-}
-
-json_t *json_of_text(const char *text)
-{
-    char *clean = malloc(3 * strlen(text) + 1), *out = clean;
-    if (!clean)
-        return NULL;
-    for (int length; *text; text += length ? length : 1) {
-        length = utf8_length(text);
-        memcpy(out, length ? text : "\xef\xbf\xbd", (size_t)(length ? length : 3));
-        out += length ? length : 3;
-    }
-    json_t *value = json_stringn(clean, (size_t)(out - clean));
-    free(clean);
-    return value;
 }

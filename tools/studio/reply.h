@@ -9,6 +9,8 @@
 
 #include <retex/error.h>
 
+#include "common/json.h"
+
 /* response NULL: there was no memory; the connection is closed. */
 typedef struct Reply {
     int status;
@@ -29,8 +31,5 @@ Reply reply_constant(const char *type, const void *data, size_t bytes);
 Reply reply_file(int status, const char *type, int descriptor, off_t first, off_t count);
 
 void reply_header(Reply *reply, const char *name, const char *value);
-
-/* Text as a JSON string; what is no UTF-8 becomes U+FFFD. */
-json_t *json_of_text(const char *text);
 
 #endif

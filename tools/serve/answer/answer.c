@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/json.h"
 #include "common/json_text.h"
 
 Answer *answer_new(int status, const char *type, void *data, size_t bytes)
@@ -29,6 +30,13 @@ Answer *answer_of_text(int status, const char *type, FILE *file, char **text, co
         return answer_new(status, type, *text, *bytes);
     free(*text);
     return NULL;
+}
+
+Answer *answer_json(int status, json_t *value)
+{
+    enum { DIGITS = 6 };
+    char *text = json_line_text(value, DIGITS);
+    return text ? answer_new(status, "application/json", text, strlen(text)) : NULL;
 }
 
 Answer *answer_error(int status, const char *fmt, ...)

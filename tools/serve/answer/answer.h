@@ -5,6 +5,9 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
+
+#include <jansson.h>
+
 #include <retex/error.h>
 
 enum { ETAG_SIZE = 40 };
@@ -25,6 +28,8 @@ typedef struct Answer {
 Answer *answer_new(int status, const char *type, void *data, size_t bytes);
 /* Of what was printed into a stream of open_memstream, which is closed. NULL if there was no memory. */
 Answer *answer_of_text(int status, const char *type, FILE *file, char **text, const size_t *bytes);
+/* A value, which is taken over, as a line of JSON. NULL: no memory. */
+Answer *answer_json(int status, json_t *value);
 /* An error: its reason as a line of plain text. */
 Answer *answer_error(int status, const char *fmt, ...) RETEX_PRINTF(2, 3);
 /* The error of the library as an answer: whose fault it is says its code. */

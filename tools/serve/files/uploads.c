@@ -267,18 +267,13 @@ static int check(const Uploads *uploads, const char *path, double deadline, int 
 
 static Answer *tell(const Uploads *uploads, int status, const char *name, size_t bytes, const int size[2])
 {
-    char *text = NULL, time_text[32] = "null";
-    size_t length = 0;
-    FILE *file = open_memstream(&text, &length);
+    char expires[32] = "";
     const time_t ends = time(NULL) + (time_t)uploads->params.seconds;
     struct tm parts;
-    if (!file)
-        return NULL;
     if (uploads->params.seconds > 0 && gmtime_r(&ends, &parts))
-        strftime(time_text, sizeof time_text, "\"%Y-%m-%dT%H:%M:%SZ\"", &parts);
-    fprintf(file, "{\"texture\": \"%s\", \"width\": %d, \"height\": %d, \"bytes\": %zu, \"expires\": %s}\n", name,
-            size[0], size[1], bytes, time_text);
-    return answer_of_text(status, "application/json", file, &text, &length);
+        strftime(expires, sizeof expires, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return answer_json(status, json_pack("{s:s, s:i, s:i, s:I, s:s?}", "texture", name, "width", size[0], "height",
+                                         size[1], "bytes", (json_int_t)bytes, "expires", *expires ? expires : NULL));
 }
 
 static Answer *full(void)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/json_text.h"
+#include "common/json.h"
 #include "serve/request/url.h"
 
 #define CONTEXT "http://iiif.io/api/image/3/context.json"
@@ -264,31 +264,25 @@ const char *iiif_info_type(const char *accept)
     return "application/json";
 }
 
-void iiif_info_write(FILE *file, const ServeRequest *request, const char *base, int room_width, int room_height,
-                     unsigned formats)
+json_t *iiif_info(const ServeRequest *request, const char *base, int room_width, int room_height, unsigned formats)
 {
     char id[IIIF_URL_MAX];
     int larger = room_width > room_height ? room_width : room_height, halvings = 0;
+    json_t *sizes = json_array(), *factors = json_array(), *extra = json_array();
     while (larger >> halvings > IIIF_TILE_SIDE)
         halvings++;
-    fprintf(file, "{\n  \"@context\": \"" CONTEXT "\",\n  \"id\": ");
-    json_text(file, iiif_id(id, request, base));
-    fprintf(file,
-            ",\n  \"type\": \"ImageService3\",\n  \"protocol\": \"http://iiif.io/api/image\",\n"
-            "  \"profile\": \"level2\",\n  \"width\": %d,\n  \"height\": %d,\n  \"sizes\": [",
-            room_width, room_height);
     for (int h = halvings; h >= 0; h--) /* as viewers compute them from scale factors: rounded up */
-        fprintf(file, "%s{\"width\": %d, \"height\": %d}", h < halvings ? ", " : "", (room_width + (1 << h) - 1) >> h,
-                (room_height + (1 << h) - 1) >> h);
-    fprintf(file, "],\n  \"tiles\": [{\"width\": %d, \"scaleFactors\": [", IIIF_TILE_SIDE);
+        json_add(&sizes, json_pack("{s:i, s:i}", "width", (room_width + (1 << h) - 1) >> h, "height",
+                                   (room_height + (1 << h) - 1) >> h));
     for (int h = 0; h <= halvings; h++)
-        fprintf(file, "%s%d", h ? ", " : "", 1 << h);
-    fprintf(file, "]}],\n  \"extraQualities\": [\"color\", \"gray\"],\n  \"extraFormats\": [");
-    const char *between = "";
+        json_add(&factors, json_integer(1 << h));
     for (int f = SERVE_WEBP; f < SERVE_FORMATS; f++)
-        if (formats & 1u << f) {
-            fprintf(file, "%s\"%s\"", between, serve_format_extension((ServeFormat)f));
-            between = ", ";
-        }
-    fprintf(file, "],\n  \"extraFeatures\": [\"mirroring\", \"canonicalLinkHeader\", \"profileLinkHeader\"]\n}\n");
+        if (formats & 1u << f)
+            json_add(&extra, json_string(serve_format_extension((ServeFormat)f)));
+    return json_pack("{s:s, s:o, s:s, s:s, s:s, s:i, s:i, s:o, s:[{s:i, s:o}], s:[s, s], s:o, s:[s, s, s]}", "@context",
+                     CONTEXT, "id", json_of_text(iiif_id(id, request, base)), "type", "ImageService3", "protocol",
+                     "http://iiif.io/api/image", "profile", "level2", "width", room_width, "height", room_height,
+                     "sizes", sizes, "tiles", "width", IIIF_TILE_SIDE, "scaleFactors", factors, "extraQualities",
+                     "color", "gray", "extraFormats", extra, "extraFeatures", "mirroring", "canonicalLinkHeader",
+                     "profileLinkHeader");
 }

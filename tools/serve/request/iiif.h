@@ -3,7 +3,7 @@
 #ifndef RETEX_SERVE_IIIF_H
 #define RETEX_SERVE_IIIF_H
 
-#include <stdio.h>
+#include <jansson.h>
 
 #include <retex/shrink.h>
 
@@ -28,10 +28,9 @@ const char *iiif_id(char text[IIIF_URL_MAX], const ServeRequest *request, const 
 const char *iiif_canonical(char text[IIIF_URL_MAX], const ServeRequest *request, const RetexCut *place,
                            const char *base, int room_width, int room_height);
 
-/* Write info.json, of the type iiif_info_type(accept): application/ld+json, or application/json for those who accept
- * only that. formats as in serve_request_parse. */
-void iiif_info_write(FILE *file, const ServeRequest *request, const char *base, int room_width, int room_height,
-                     unsigned formats);
+/* info.json, of the type iiif_info_type(accept): application/ld+json, or application/json for those who accept only
+ * that. formats as in serve_request_parse. */
+json_t *iiif_info(const ServeRequest *request, const char *base, int room_width, int room_height, unsigned formats);
 const char *iiif_info_type(const char *accept);
 
 #endif

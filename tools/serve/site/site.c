@@ -12,7 +12,7 @@
 
 #include "http/hash.h"
 #include "http/thumbnail.h"
-#include "common/json_text.h"
+#include "common/json.h"
 #include "serve/site/picture.h"
 
 /* ---- what a request is of ---- */
@@ -455,104 +455,90 @@ static Answer *make_texture(const Site *site, const WorkItem *item, int nthreads
 
 /* ---- texts ---- */
 
-typedef struct List {
-    FILE *file;
-    int count;
-} List;
-
 static void tell_name(void *context, const char *name)
 {
-    List *list = context;
-    fputs(list->count++ ? ", " : "", list->file);
-    json_text(list->file, name);
+    json_add(context, json_of_text(name));
 }
 
-static int write_rooms(const Site *site, FILE *file)
+static json_t *format_names(void)
 {
-    List rooms = {file, 0}, images = {file, 0}, presets = {file, 0};
-    fputs("{\"rooms\": [", file);
-    int failed = rooms_list(site->rooms, tell_name, &rooms);
-    fputs("], \"textures\": [", file);
-    failed |= images_list(site->images, tell_name, &images);
-    fputs(site->presets.folder ? "], \"presets\": [" : "", file);
-    failed |= presets_list(&site->presets, tell_name, &presets);
-    fputs("], \"formats\": [", file);
-    for (int format = 0, count = 0; format < SERVE_FORMATS; format++)
+    json_t *names = json_array();
+    for (int format = 0; format < SERVE_FORMATS; format++)
         if (picture_formats() & 1u << format)
-            fprintf(file, "%s\"%s\"", count++ ? ", " : "", serve_format_extension((ServeFormat)format));
+            json_add(&names, json_string(serve_format_extension((ServeFormat)format)));
+    return names;
+}
+
+static json_t *describe_rooms(const Site *site, int *failed)
+{
+    json_t *rooms = json_array(), *images = json_array(), *presets = json_array();
+    *failed = rooms_list(site->rooms, tell_name, &rooms);
+    *failed |= images_list(site->images, tell_name, &images);
+    *failed |= presets_list(&site->presets, tell_name, &presets);
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o}", "rooms", rooms, "textures", images, "presets", presets, "formats",
+                            format_names());
+    if (!site->presets.folder)
+        json_object_del(all, "presets");
     if (site->uploads)
-        fprintf(file, "], \"upload_bytes\": %zu}\n", uploads_most_bytes(site->uploads));
-    else
-        fputs("]}\n", file);
-    return failed;
+        json_object_set_new(all, "upload_bytes", json_integer((json_int_t)uploads_most_bytes(site->uploads)));
+    return all;
 }
 
-static void write_target(FILE *file, const RetexTarget *target)
+static json_t *pair_of(const double pair[2])
 {
-    fputs("{\"name\": ", file);
-    json_text(file, target->name);
-    fprintf(file, ", \"share\": %.6g, \"mean_albedo\": [%.6g, %.6g, %.6g], \"uv_min\": [%.6g, %.6g]", target->share,
-            (double)target->mean_albedo[0], (double)target->mean_albedo[1], (double)target->mean_albedo[2],
-            target->uv_min[0], target->uv_min[1]);
-    fprintf(file, ", \"uv_max\": [%.6g, %.6g]", target->uv_max[0], target->uv_max[1]);
-    if (target->uv_scale[0] > 0)
-        fprintf(file, ", \"uv_scale\": [%.6g, %.6g]", target->uv_scale[0], target->uv_scale[1]);
-    if (target->normal_tilt > 0)
-        fprintf(file, ", \"normal_tilt\": %.6g", target->normal_tilt);
-    for (int k = 0; k < target->nfinishes && !(target->normal_tilt > 0); k++) {
-        fputs(k ? ", " : ", \"finishes\": [", file);
-        json_text(file, target->finishes[k]);
-        if (k + 1 == target->nfinishes)
-            fprintf(file, "], \"finish\": %d", target->finish);
-    }
-    fprintf(file, ", \"periodic\": [%s, %s]}", target->periodic[0] ? "true" : "false",
-            target->periodic[1] ? "true" : "false");
+    return json_pack("[o, o]", json_of_number(pair[0]), json_of_number(pair[1]));
 }
 
-static void write_room(FILE *file, const ServeRequest *request, const RetexSet *set)
+static json_t *describe_target(const RetexTarget *target)
 {
-    const RetexSetInfo info = retex_set_info(set);
-    fputs("{\"room\": ", file);
-    json_text(file, request->room);
-    fprintf(file, ", \"width\": %d, \"height\": %d, \"layout\": \"%s\", \"spp\": %d, \"denoised\": %s, \"targets\": [",
-            info.width, info.height, info.layout, info.spp, info.denoised ? "true" : "false");
-    for (int t = 0; t < info.ntargets; t++) {
-        fputs(t ? ", " : "", file);
-        write_target(file, retex_set_target(set, t));
-    }
-    const char *divider = "], \"lamps\": [";
-    for (int i = 0; i < info.nparameters; i++) {
-        const char *lamp = retex_parameter_lamp(set, i);
-        if (!lamp)
-            continue;
-        fputs(divider, file);
-        json_text(file, lamp);
-        divider = ", ";
-    }
-    fputs("]}\n", file);
+    json_t *albedo = json_array(), *finishes = json_array();
+    const int has_finishes = target->nfinishes > 0 && !(target->normal_tilt > 0);
+    for (int c = 0; c < 3; c++)
+        json_add(&albedo, json_of_number((double)target->mean_albedo[c]));
+    for (int k = 0; k < target->nfinishes; k++)
+        json_add(&finishes, json_of_text(target->finishes[k]));
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o*, s:o*}", "name", json_of_text(target->name), "share",
+                            json_of_number(target->share), "mean_albedo", albedo, "uv_min", pair_of(target->uv_min),
+                            "uv_max", pair_of(target->uv_max), "uv_scale",
+                            target->uv_scale[0] > 0 ? pair_of(target->uv_scale) : NULL, "normal_tilt",
+                            target->normal_tilt > 0 ? json_of_number(target->normal_tilt) : NULL);
+    if (has_finishes)
+        json_object_update_new(all, json_pack("{s:O, s:i}", "finishes", finishes, "finish", target->finish));
+    json_decref(finishes);
+    json_object_set_new(all, "periodic", json_pack("[b, b]", target->periodic[0], target->periodic[1]));
+    return all;
 }
 
-static void write_image(FILE *file, const WorkItem *item, const RetexSet *set)
+static json_t *describe_room(const ServeRequest *request, const RetexSet *set)
 {
     const RetexSetInfo info = retex_set_info(set);
-    iiif_info_write(file, &item->request, item->base, info.width, info.height, picture_formats());
+    json_t *targets = json_array(), *lamps = json_array();
+    for (int t = 0; t < info.ntargets; t++)
+        json_add(&targets, describe_target(retex_set_target(set, t)));
+    for (int i = 0; i < info.nparameters; i++)
+        if (retex_parameter_lamp(set, i))
+            json_add(&lamps, json_of_text(retex_parameter_lamp(set, i)));
+    json_t *all = json_pack("{s:o, s:i, s:i, s:s, s:i, s:b, s:o, s:o}", "room", json_of_text(request->room), "width",
+                            info.width, "height", info.height, "layout", info.layout, "spp", info.spp, "denoised",
+                            info.denoised, "targets", targets, "lamps", lamps);
+    if (!json_array_size(lamps))
+        json_object_del(all, "lamps");
+    return all;
 }
 
 static Answer *make_text(const Site *site, const WorkItem *item, const Room *room)
 {
-    char *text = NULL;
-    size_t bytes = 0;
-    FILE *file = open_memstream(&text, &bytes);
+    json_t *value;
     int failed = 0;
-    if (!file)
-        return NULL;
-    if (item->request.route == SERVE_ROOMS)
-        failed = write_rooms(site, file);
-    else if (item->request.route == SERVE_ROOM)
-        write_room(file, &item->request, room->set);
-    else
-        write_image(file, item, room->set);
-    Answer *answer = answer_of_text(200, "application/json", file, &text, &bytes);
+    if (item->request.route == SERVE_ROOMS) {
+        value = describe_rooms(site, &failed);
+    } else if (item->request.route == SERVE_ROOM) {
+        value = describe_room(&item->request, room->set);
+    } else {
+        const RetexSetInfo info = retex_set_info(room->set);
+        value = iiif_info(&item->request, item->base, info.width, info.height, picture_formats());
+    }
+    Answer *answer = answer_json(200, value);
     if (!failed)
         return answer;
     answer_release(answer);
