@@ -37,11 +37,11 @@ SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/request/%.o,hints iii
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
 $(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/%.o,serve/clients/address serve/clients/clients http/head serve/clients/peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
-	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer/answer answer/cache request/headers site/work http/body) \
-	$(patsubst %,$(BUILD)/obj/tools/serve/files/%.o,names kept content decoding images rooms uploads)
+	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer/answer answer/cache site/work http/body) \
+	$(BUILD)/obj/tools/http/headers.o $(patsubst %,$(BUILD)/obj/tools/serve/files/%.o,names kept content decoding images rooms uploads)
 # And the parts of retex-studio: who may ask, command lines, files.
 $(BUILD)/tests/unit/test_studio: private TEST_LIBS += $(SERVE_LIBS)
-$(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply)
+$(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply) $(BUILD)/obj/tools/http/headers.o
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/common/json.o $(BUILD)/obj/tools/common/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

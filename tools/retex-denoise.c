@@ -10,6 +10,7 @@
 #include <retex/set_file.h>
 
 #include "common/cli.h"
+#include "common/picture_kind.h"
 
 /* Strips take as long as the whole set in memory, and a third of the memory at 1920 x 1080. */
 #define MEMORY_DEFAULT ((uint64_t)512 << 20)
@@ -99,13 +100,13 @@ static void parse(Cli *cli, Request *r)
 /* The output is a set, or an EXR picture. Refuse names of other formats. */
 static void check_ending(const Cli *cli, const char *output, const char *picture)
 {
-    static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp"};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (cli_ends_with(output, others[i]) && !picture)
-            cli_die(cli, "%s: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine",
-                    output);
-        else if (cli_ends_with(output, others[i]) || (picture && cli_ends_with(output, ".retex")))
-            cli_die(cli, "%s: a denoised picture is an OpenEXR file, .exr, as %s is", output, picture);
+    const PictureKind *kind = picture_kind_of_name(output);
+    const int is_other = kind && strcmp(kind->ending, "exr") != 0;
+    if (is_other && !picture)
+        cli_die(cli, "%s: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine",
+                output);
+    if (is_other || (picture && cli_ends_with(output, ".retex")))
+        cli_die(cli, "%s: a denoised picture is an OpenEXR file, .exr, as %s is", output, picture);
 }
 
 static void progress(void *context, double done)

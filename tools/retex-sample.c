@@ -1,5 +1,6 @@
 /* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
 #include "common/kept_textures.h"
+#include "common/picture_kind.h"
 #include "common/texture_args.h"
 
 typedef struct Job {
@@ -44,10 +45,9 @@ static void parse(Cli *cli, Job *job)
 /* Samples are always OpenEXR. Refuse names of other formats, which suggest that retex-combine is meant. */
 static void check_ending(const Cli *cli, const char *output)
 {
-    static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp", ".retex"};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (cli_ends_with(output, others[i]))
-            cli_die(cli, "%s: samples are an OpenEXR file, .exr; pictures are made by retex-combine", output);
+    const PictureKind *kind = picture_kind_of_name(output);
+    if ((kind && strcmp(kind->ending, "exr") != 0) || cli_ends_with(output, ".retex"))
+        cli_die(cli, "%s: samples are an OpenEXR file, .exr; pictures are made by retex-combine", output);
 }
 
 /* Before anything is read: check the files of a frame, or the only ones. */

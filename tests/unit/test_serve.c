@@ -18,7 +18,7 @@
 
 #include "serve/http/body.h"
 #include "serve/answer/cache.h"
-#include "serve/request/headers.h"
+#include "http/headers.h"
 #include "serve/files/images.h"
 #include "serve/files/kept.h"
 #include "serve/files/rooms.h"
@@ -221,6 +221,13 @@ static void test_ranges(void **state)
         {"bytes=a-b", 10, RANGE_NONE, 0, 0},
         {"bytes=99999999999999999999999-", 10, RANGE_OUTSIDE, 0, 0},
         {"bytes=1-99999999999999999999999", 10, RANGE_SOME, 1, 9},
+        {"bytes=18446744073709551615-", 10, RANGE_OUTSIDE, 0, 0},
+        {"bytes=-1", 0, RANGE_OUTSIDE, 0, 0},
+        {"bytes=1", 10, RANGE_NONE, 0, 0},
+        {"bytes=--1", 10, RANGE_NONE, 0, 0},
+        {"bytes=1--1", 10, RANGE_NONE, 0, 0},
+        {"bytes= 1-2", 10, RANGE_NONE, 0, 0},
+        {"bytes=- 1", 10, RANGE_NONE, 0, 0},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

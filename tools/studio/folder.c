@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/picture_kind.h"
 #include "reply.h"
 
 static const struct {
@@ -19,9 +20,7 @@ static const struct {
 } endings[] = {
     {".studio.json", "project"}, {".glb", "model"},    {".gltf", "model"},   {".obj", "model"},   {".fbx", "model"},
     {".dae", "model"},           {".ply", "model"},    {".stl", "model"},    {".3ds", "model"},   {".blend", "model"},
-    {".pov", "scene"},           {".retex", "set"},    {".png", "picture"},  {".jpg", "picture"}, {".jpeg", "picture"},
-    {".tif", "picture"},         {".tiff", "picture"}, {".tga", "picture"},  {".bmp", "picture"}, {".gif", "picture"},
-    {".hdr", "picture"},         {".webp", "picture"}, {".avif", "picture"},
+    {".pov", "scene"},           {".retex", "set"},
 };
 
 static int ends_with(const char *name, const char *ending)
@@ -53,7 +52,7 @@ static const char *kind_of(int folder, const char *name, int is_folder)
     for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)
         if (ends_with(name, endings[k].ending))
             return endings[k].kind;
-    return "file";
+    return picture_kind_of_name(name) ? "picture" : "file";
 }
 
 static json_t *describe(int folder, const char *name, const char *shown)

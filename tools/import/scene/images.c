@@ -12,6 +12,7 @@
 #include <retex/image_file.h>
 #include <retex/output_file.h>
 
+#include "common/picture_kind.h"
 #include "import/base/files.h"
 #include "import/base/losses.h"
 #include "import/base/tell.h"
@@ -25,26 +26,16 @@ typedef struct ImageFile {
     int missing;
 } ImageFile;
 
-/* Formats that POV-Ray reads, by the first bytes of a file. */
-typedef struct Format {
-    const char *bytes, *ending, *keyword;
-    int length;
-} Format;
-static const Format formats[] = {
-    {"\x89PNG\r\n\x1a\n", "png", "png", 8},
-    {"\xff\xd8\xff", "jpg", "jpeg", 3},
-    {"GIF8", "gif", "gif", 4},
-    {"II*\0", "tif", "tiff", 4},
-    {"MM\0*", "tif", "tiff", 4},
-    {"\x76\x2f\x31\x01", "exr", "exr", 4},
-    {"#?RADIANCE", "hdr", "hdr", 10},
-    {"#?RGBE", "hdr", "hdr", 6},
-};
+/* Formats that POV-Ray reads, by the endings of names, and what it calls them. */
+static const struct {
+    const char *ending, *keyword;
+} formats[] = {{"png", "png"}, {"jpg", "jpeg"}, {"gif", "gif"}, {"tif", "tiff"}, {"exr", "exr"}, {"hdr", "hdr"}};
+enum { FORMATS = sizeof formats / sizeof *formats };
 
 const char *images_keyword(const char *file)
 {
     const char *dot = strrchr(file, '.');
-    for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
+    for (int i = 0; dot && i < FORMATS; i++)
         if (strcmp(dot + 1, formats[i].ending) == 0)
             return formats[i].keyword;
     return "png";
@@ -165,21 +156,22 @@ static void release(Bytes *bytes)
     bytes->data = NULL;
 }
 
-static const Format *format_of(const Bytes *bytes)
+/* The ending of a format that POV-Ray reads, by the first bytes of a file; or NULL. */
+static const char *ending_of(const Bytes *bytes)
 {
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (bytes->size >= (size_t)formats[i].length &&
-            memcmp(bytes->data, formats[i].bytes, (size_t)formats[i].length) == 0)
-            return &formats[i];
+    const PictureKind *kind = picture_kind_of_bytes(bytes->data, bytes->size);
+    for (int i = 0; kind && i < FORMATS; i++)
+        if (strcmp(kind->ending, formats[i].ending) == 0)
+            return kind->ending;
     return NULL;
 }
 
 /* Whether a picture may have alpha: PNG says so in its header or a chunk tRNS. */
-static int may_have_alpha(const Bytes *bytes, const Format *format)
+static int may_have_alpha(const Bytes *bytes, const char *ending)
 {
-    if (!format || strcmp(format->ending, "jpg") == 0 || strcmp(format->ending, "hdr") == 0)
-        return !format;
-    if (strcmp(format->ending, "png") != 0 || bytes->size < 33)
+    if (!ending || strcmp(ending, "jpg") == 0 || strcmp(ending, "hdr") == 0)
+        return !ending;
+    if (strcmp(ending, "png") != 0 || bytes->size < 33)
         return 1;
     if (bytes->data[25] & 4)
         return 1;
@@ -369,14 +361,14 @@ static int name_file(Import *import, const char *source, const char *ending, cha
 
 static int make_image(Import *import, const ImageUse *use, ImageFile *image, Bytes *bytes, RetexError *err)
 {
-    const Format *format = format_of(bytes);
-    const int alpha = may_have_alpha(bytes, format);
+    const char *ending = ending_of(bytes);
+    const int alpha = may_have_alpha(bytes, ending);
     const int changes = use->factor[0] != 1 || use->factor[1] != 1 || use->factor[2] != 1 || use->opacity ||
                         (use->opacity_factor != 1 && use->alpha != ALPHA_IGNORE) ||
                         (alpha && use->alpha != ALPHA_BLEND);
     RetexImage pixels = {0};
     char path[PATH_MAX];
-    int code = name_file(import, use->source, format && !changes ? format->ending : "png", image->file, err);
+    int code = name_file(import, use->source, ending && !changes ? ending : "png", image->file, err);
     if (code)
         return code;
     /* What is copied is decoded as well: a damaged image would stop the renderer. */
@@ -387,7 +379,7 @@ static int make_image(Import *import, const ImageUse *use, ImageFile *image, Byt
             *err = why;
         return is_fatal(code) ? code : is_missing(import, image, use->source, &why);
     }
-    if (format && !changes) {
+    if (ending && !changes) {
         retex_image_free(&pixels);
         if (snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
             return retex_fail(err, RETEX_EIO, "the folder's name is too long");
@@ -596,15 +588,15 @@ int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err)
     import->access = access; /* the user named it */
     import->access.safe = import->options->safe;
     int code = read_bytes(import, &bytes, err);
-    const Format *format = code ? NULL : format_of(&bytes);
-    if (!code && !format)
+    const char *ending = code ? NULL : ending_of(&bytes);
+    if (!code && !ending)
         code = retex_fail(err, RETEX_EFORMAT, "%s: --sky takes a picture as HDR, EXR, PNG, JPEG or TIFF",
                           import->options->sky);
     if (!code)
         code = check_picture(import, bytes.path, err);
     import->access = ours;
     if (!code) {
-        snprintf(file, NAME_SIZE + 32, "textures/sky.%s", format->ending);
+        snprintf(file, NAME_SIZE + 32, "textures/sky.%s", ending);
         snprintf(path, sizeof path, "%s/%s", import->options->folder, file);
         code = retex_file_write(path, bytes.data, bytes.size, err);
     }

@@ -7,15 +7,13 @@
 
 #include <retex/image_file.h>
 
+#include "common/picture_kind.h"
 #include "serve/files/decoding.h"
 #include "serve/files/kept.h"
 #include "serve/files/names.h"
 #include "serve/request/name.h"
 
 enum { MOST_OPEN = 4096 }; /* images that nobody uses are closed from this number on */
-
-static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "tga", "bmp", "gif", "webp",
-                                      NULL};
 
 /* What decides on the texels. */
 typedef struct ImageKey {
@@ -142,8 +140,9 @@ void images_close(Images *images)
 static int find_in(const Images *images, const char *folder, const char *name, char *path, size_t size)
 {
     FileId id;
-    for (int i = -1; folder && (i < 0 || endings[i]); i++) {
-        const int length = snprintf(path, size, "%s/%s%s%s", folder, name, i < 0 ? "" : ".", i < 0 ? "" : endings[i]);
+    for (int i = -1; folder && (i < 0 || picture_endings[i]); i++) {
+        const int length =
+            snprintf(path, size, "%s/%s%s%s", folder, name, i < 0 ? "" : ".", i < 0 ? "" : picture_endings[i]);
         if (length > 0 && (size_t)length < size && file_id_of(&id, path) == 0)
             return retex_access_check(images->params.access, "", path) == RETEX_ACCESS_ALLOWED ? 0 : -1;
     }
@@ -231,7 +230,9 @@ int images_list(const Images *images, void (*tell)(void *context, const char *na
 {
     const char *folder = images->params.folder;
     FolderList list = {images, tell, context};
-    return folder ? names_list(folder, endings, 1, tell, context) | names_list(folder, NULL, 1, tell_folder, &list) : 0;
+    return folder ? names_list(folder, picture_endings, 1, tell, context) |
+                        names_list(folder, NULL, 1, tell_folder, &list)
+                  : 0;
 }
 
 /* ---- images in memory ---- */

@@ -16,6 +16,7 @@
 #include <retex/clock.h>
 #include <retex/texture.h>
 
+#include "common/picture_kind.h"
 #include "serve/files/decoding.h"
 
 enum { MOST_ARRIVING = 64, MOST_IN_MEMORY = 8 /* of the largest size */, LOOK_SECONDS = 5 };
@@ -36,39 +37,13 @@ struct Uploads {
 
 /* ---- the folder ---- */
 
-static const char *const endings[] = {"jpg", "png", "exr", "tif", "bmp", "gif", "hdr", "webp", NULL};
-
-/* The ending of a file by its first bytes, or NULL. */
-static const char *ending_of(const char *data, size_t bytes)
-{
-    static const struct {
-        const char *mark;
-        size_t length;
-        int ending;
-        size_t at; /* where the mark stands */
-    } marks[] = {{"\xff\xd8\xff", 3, 0, 0},
-                 {"\x89PNG\r\n\x1a\n", 8, 1, 0},
-                 {"\x76\x2f\x31\x01", 4, 2, 0},
-                 {"II*\0", 4, 3, 0},
-                 {"MM\0*", 4, 3, 0},
-                 {"BM", 2, 4, 0},
-                 {"GIF8", 4, 5, 0},
-                 {"#?RADIANCE", 10, 6, 0},
-                 {"#?RGBE", 6, 6, 0},
-                 {"WEBP", 4, 7, 8}};
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (bytes > marks[i].at + marks[i].length && memcmp(data + marks[i].at, marks[i].mark, marks[i].length) == 0)
-            return endings[marks[i].ending];
-    return NULL;
-}
-
 /* Whether this is the name of an upload: other files of the folder are left alone. */
 static int is_upload(const char *name)
 {
     if (strspn(name, "0123456789abcdef") != UPLOAD_HASH_TEXT - 1 || name[UPLOAD_HASH_TEXT - 1] != '.')
         return 0;
-    for (int i = 0; endings[i]; i++)
-        if (strcmp(name + UPLOAD_HASH_TEXT, endings[i]) == 0)
+    for (int i = 0; picture_endings[i]; i++)
+        if (strcmp(name + UPLOAD_HASH_TEXT, picture_endings[i]) == 0)
             return 1;
     return 0;
 }
@@ -306,14 +281,14 @@ static Answer *add(Uploads *uploads, const char *path, const char *name, const c
 
 Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes, double deadline)
 {
-    const char *ending = ending_of(data, bytes);
+    const PictureKind *kind = picture_kind_of_bytes(data, bytes);
     char name[UPLOAD_HASH_TEXT + 8], path[PATH_MAX];
     int size[2] = {0, 0};
-    if (!ending)
+    if (!kind)
         return answer_error(
             415,
             "expected an image, the file itself and no form: JPEG, PNG, OpenEXR, TIFF, BMP, GIF, WebP or Radiance HDR");
-    snprintf(name, sizeof name, "%s.%s", hash, ending);
+    snprintf(name, sizeof name, "%s.%s", hash, kind->ending);
     if (snprintf(path, sizeof path, "%s/%s", uploads->params.folder, name) >= (int)sizeof path)
         return answer_error(500, "the server cannot keep this");
     if (utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW) != 0)

@@ -11,7 +11,7 @@
 
 #include "serve/http/exchange.h"
 #include "http/head.h"
-#include "serve/request/headers.h"
+#include "http/headers.h"
 #include "serve/request/hints.h"
 #include "serve/request/iiif.h"
 #include "http/listen.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "serve/request/headers.h"
+#include "http/headers.h"
 #include "serve/request/hints.h"
 #include "serve/request/iiif.h"
 

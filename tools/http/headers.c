@@ -1,5 +1,5 @@
 /* See headers.h. */
-#include "serve/request/headers.h"
+#include "http/headers.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Headers of requests: what is compared with an answer. */
-#ifndef RETEX_SERVE_HEADERS_H
-#define RETEX_SERVE_HEADERS_H
+#ifndef RETEX_HTTP_HEADERS_H
+#define RETEX_HTTP_HEADERS_H
 
 #include <stddef.h>
 
