@@ -8,9 +8,8 @@
 
 #include <meshoptimizer.h>
 
+#include "import/gltf/gltf.h"
 #include "import/gltf/json.h"
-#include "import/gltf/prepare.h"
-#include "import/gltf/variants.h"
 #include "lib_fuzz.h"
 
 /* A mesh of positions of 16 bits, normals and UV of 8, which are sparse in part; UV of floats, all of them sparse. */

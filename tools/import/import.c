@@ -13,22 +13,14 @@
 #include <retex/version.h>
 
 #include "import/base/files.h"
-#include "import/base/losses.h"
 #include "import/base/mesh.h"
 #include "import/base/tell.h"
 #include "import/base/world.h"
 #include "import/gltf/gltf.h"
-#include "import/gltf/variants.h"
 #include "import/import.h"
 #include "import/read/read.h"
-#include "import/scene/cameras.h"
 #include "import/scene/images.h"
-#include "import/scene/lights.h"
-#include "import/scene/materials.h"
-#include "import/scene/meshes.h"
-#include "import/scene/variants.h"
-#include "import/sense/cutaway.h"
-#include "import/sense/doubles.h"
+#include "import/scene/scene.h"
 #include "import/sense/sense.h"
 
 #define FARTHEST 1e15 /* from the origin */

@@ -3,9 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "import/gltf/cameras.h"
 #include "import/gltf/json.h"
-#include "import/gltf/nodes.h"
+#include "import/gltf/parts.h"
 
 static void take_lens(const json_t *node, GltfCamera *to)
 {

@@ -5,14 +5,10 @@
 #include <sys/stat.h>
 
 #include "common/json_text.h"
-#include "import/base/losses.h"
 #include "import/base/tell.h"
-#include "import/gltf/cameras.h"
 #include "import/gltf/gltf.h"
-#include "import/gltf/images.h"
 #include "import/gltf/json.h"
-#include "import/gltf/lights.h"
-#include "import/gltf/variants.h"
+#include "import/gltf/parts.h"
 
 /* Factor of the reflectance; the mean of a colour. */
 static double specular_of(const json_t *specular)

@@ -2,10 +2,9 @@
  * place. */
 #include <string.h>
 
-#include "import/base/losses.h"
 #include "import/base/tell.h"
-#include "import/gltf/images.h"
 #include "import/gltf/json.h"
+#include "import/gltf/parts.h"
 
 /* Whether what the material says has this texture anywhere. */
 static int uses_texture(const json_t *value, json_int_t texture)

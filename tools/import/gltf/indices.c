@@ -1,5 +1,5 @@
 /* Indices of what a glTF file has not: they would mean what is added to it behind its own. */
-#include "import/gltf/indices.h"
+#include "import/gltf/parts.h"
 
 typedef struct Check {
     const json_t *json;

@@ -3,11 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/base/losses.h"
 #include "import/base/tell.h"
+#include "import/gltf/gltf.h"
 #include "import/gltf/json.h"
-#include "import/gltf/lights.h"
-#include "import/gltf/nodes.h"
+#include "import/gltf/parts.h"
 
 /* glTF counts in candela and lux. Blender writes 683 lumens for a watt; of other programs the numbers are taken as
  * they are. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "import/gltf/json.h"
-#include "import/gltf/nodes.h"
+#include "import/gltf/parts.h"
 
 static double component(const json_t *array, size_t k, double otherwise)
 {

@@ -8,11 +8,9 @@
 #include "import/gltf/buffers.h"
 #include "import/gltf/decode.h"
 #include "import/gltf/floats.h"
-#include "import/gltf/indices.h"
+#include "import/gltf/gltf.h"
 #include "import/gltf/json.h"
-#include "import/gltf/nodes.h"
-#include "import/gltf/prepare.h"
-#include "import/gltf/variants.h"
+#include "import/gltf/parts.h"
 
 /* Images in formats that only an extension may name, where there is no other image in its place. Returns 1 if there
  * are any. */

@@ -1,11 +1,11 @@
-/* Variants of a glTF file, before Assimp reads it, which knows nothing of them. See variants.h. */
+/* Variants of a glTF file, before Assimp reads it, which knows nothing of them. See gltf.h. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "import/base/tell.h"
+#include "import/gltf/gltf.h"
 #include "import/gltf/json.h"
-#include "import/gltf/variants.h"
 
 enum { MOST_VARIANTS = 1024, MOST_SURFACES = 1024 };
 

@@ -13,7 +13,6 @@
 
 #include "import/base/world.h"
 #include "import/gltf/gltf.h"
-#include "import/gltf/prepare.h"
 #include "import/read/read.h"
 
 /* ---- what Assimp calls to read files ---- */

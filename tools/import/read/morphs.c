@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/base/losses.h"
+#include "import/base/tell.h"
 #include "import/read/read.h"
 
 static void add(struct aiVector3D *sum, const struct aiVector3D *to, const struct aiVector3D *from, float weight)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/base/losses.h"
+#include "import/base/tell.h"
 #include "import/read/read.h"
 
 typedef struct NodePlace {

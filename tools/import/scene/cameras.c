@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "import/base/tell.h"
-#include "import/scene/cameras.h"
-#include "import/sense/framing.h"
+#include "import/scene/scene.h"
+#include "import/sense/sense.h"
 
 static int count_cameras(const Import *import)
 {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "import/base/tell.h"
-#include "import/scene/ceiling.h"
+#include "import/scene/scene.h"
 #include "import/sense/sense.h"
 #include "import/space/room.h"
 #include "import/space/space.h"

@@ -14,7 +14,6 @@
 
 #include "common/picture_kind.h"
 #include "import/base/files.h"
-#include "import/base/losses.h"
 #include "import/base/tell.h"
 #include "import/scene/images.h"
 #include "import/scene/surface.h"

@@ -2,12 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "import/base/losses.h"
 #include "import/base/tell.h"
-#include "import/gltf/lights.h"
-#include "import/scene/ceiling.h"
+#include "import/gltf/gltf.h"
 #include "import/scene/images.h"
-#include "import/scene/lights.h"
+#include "import/scene/scene.h"
 #include "import/scene/surface.h"
 
 typedef struct Falloff {

@@ -6,11 +6,11 @@
 
 #include <retex/target_name.h>
 
-#include "import/base/losses.h"
 #include "import/base/mesh.h"
+#include "import/base/tell.h"
 #include "import/gltf/json.h"
 #include "import/scene/images.h"
-#include "import/scene/materials.h"
+#include "import/scene/scene.h"
 #include "import/scene/surface.h"
 
 static void print_color(FILE *out, const float c[3])

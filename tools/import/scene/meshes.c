@@ -5,10 +5,9 @@
 
 #include <retex/color.h>
 
-#include "import/base/losses.h"
 #include "import/base/mesh.h"
 #include "import/base/tell.h"
-#include "import/scene/meshes.h"
+#include "import/scene/scene.h"
 
 enum { MOST_COLORS = 4096 };
 

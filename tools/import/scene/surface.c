@@ -5,7 +5,7 @@
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
 
-#include "import/base/losses.h"
+#include "import/base/tell.h"
 #include "import/scene/images.h"
 #include "import/scene/surface.h"
 

@@ -1,4 +1,6 @@
-/* What variants change of colours and finishes alone becomes targets and a table. See variants.h. */
+/* Variants of a glTF file, by KHR_materials_variants: each names materials in the place of those that some of the
+ * meshes have. The scene gets the materials of none, or those of --variant. In the former case, what variants change of
+ * colours and finishes alone is offered as targets of one render, and a table has all such variants. */
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -10,9 +12,8 @@
 #include "import/base/mesh.h"
 #include "import/base/tell.h"
 #include "import/scene/images.h"
-#include "import/scene/materials.h"
+#include "import/scene/scene.h"
 #include "import/scene/surface.h"
-#include "import/scene/variants.h"
 
 enum { COMBINATIONS = 8 /* of finishes, of retex-render --finish */, CELL_SIZE = 320 };
 

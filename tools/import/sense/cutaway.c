@@ -8,8 +8,6 @@
 
 #include "import/base/mesh.h"
 #include "import/base/world.h"
-#include "import/sense/cutaway.h"
-#include "import/sense/framing.h"
 #include "import/sense/sense.h"
 #include "import/space/room.h"
 #include "import/space/space.h"

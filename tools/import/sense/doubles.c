@@ -8,7 +8,7 @@
 #include "import/base/mesh.h"
 #include "import/base/tell.h"
 #include "import/base/world.h"
-#include "import/sense/doubles.h"
+#include "import/sense/sense.h"
 
 typedef struct MeshPlace {
     Affine world;

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "import/base/tell.h"
-#include "import/sense/framing.h"
 #include "import/sense/sense.h"
 #include "import/space/room.h"
 #include "import/space/space.h"

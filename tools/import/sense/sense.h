@@ -25,4 +25,20 @@ int placed_collect(Import *import, Sense *sense, RetexError *err);
 /* Whether z is up in a model whose format does not say. */
 int sense_is_z_up(const Space *space);
 
+/* Of faces that lie on one another, one stays; once materials are known. */
+int doubles_drop(Import *import, RetexError *err);
+int doubles_find_objects(Import *import, RetexError *err);
+
+/* Where a camera sees all of a box, from a side: a vector from its middle, of any length. angle: degrees, from left to
+ * right. */
+void framing_fit(const double low[3], const double high[3], const double side[3], double angle, double eye[3],
+                 double target[3]);
+/* Whether --camera asks for a view that is none of the model's: a place, or the words inside and outside. */
+int framing_is_asked(const Import *import, int *is_asked, RetexError *err);
+/* A view of the scene: what is asked for, else from inside of a room and from outside of what is none. */
+int framing_write(Import *import, FILE *out, RetexError *err);
+
+/* Place the camera, into import->cutaway, and drop what stands before the rooms, where it is asked for. */
+int cutaway_find(Import *import, RetexError *err);
+
 #endif

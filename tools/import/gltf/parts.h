@@ -1,6 +1,6 @@
-/* Nodes of a glTF file. */
-#ifndef RETEX_IMPORT_GLTF_NODES_H
-#define RETEX_IMPORT_GLTF_NODES_H
+/* Parts of a glTF file, which gltf.c and prepare.c go through. */
+#ifndef RETEX_IMPORT_GLTF_PARTS_H
+#define RETEX_IMPORT_GLTF_PARTS_H
 
 #include <jansson.h>
 
@@ -20,5 +20,14 @@ int gltf_is_hidden(const json_t *node);
 int gltf_visit_nodes(Import *import, const json_t *json, GltfVisit *visit, void *context);
 /* Its name, else that of the camera or light that it has, else its number. */
 void gltf_node_name(const json_t *json, const json_t *node, const json_t *has, char name[TEXT_SIZE]);
+
+/* Into import->gltf. Returns 0 without memory. */
+int gltf_take_cameras(Import *import, const json_t *json);
+
+/* Tell of images that are lost. */
+void gltf_note_images(Import *import, const json_t *json);
+
+/* Why the file cannot be read, which may not refer to more than it has; or nothing. */
+void gltf_check_indices(const json_t *json, char why[GLTF_REFUSED_SIZE]);
 
 #endif
