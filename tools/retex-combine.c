@@ -111,19 +111,11 @@ static void set_picture_keys(const Cli *cli, const Job *job)
             check(cli, retex_edit_set(job->lights, keys[i].key, keys[i].value, &err), &err);
 }
 
-static void take_file(Cli *cli, void *to)
-{
-    Job *job = to;
-    if (job->samples_path)
-        cli_surplus(cli, "one set and its samples are enough");
-    *(job->set_path ? &job->samples_path : &job->set_path) = cli->value;
-}
-
 static void parse(Cli *cli, Job *job)
 {
     RetexError err = {0};
     check(cli, retex_edit_create(&job->lights, &err) || retex_edit_create(&job->solo, &err), &err);
-    cli_parse(cli, job, take_file);
+    cli_parse(cli, job, CLI_ARGUMENTS(&job->set_path, &job->samples_path), "one set and its samples are enough");
     check(cli, retex_edit_complete_lights(job->lights, job->solo, &err), &err);
     retex_edit_close(&job->solo);
     set_picture_keys(cli, job);

@@ -11,7 +11,7 @@
 typedef struct Request {
     RetexDiffParams params;
     const char *names[2]; /* of the files */
-    int files, json;
+    int json;
 } Request;
 
 static const CliOption options[] = {
@@ -29,18 +29,10 @@ static const CliOption options[] = {
     {0},
 };
 
-static void take_file(Cli *cli, void *to)
-{
-    Request *request = to;
-    if (request->files == 2)
-        cli_die(cli, "more than two files: '%s'", cli->value);
-    request->names[request->files++] = cli->value;
-}
-
 static void parse(Cli *cli, Request *request)
 {
-    cli_parse(cli, request, take_file);
-    if (request->files < 2)
+    cli_parse(cli, request, CLI_ARGUMENTS(&request->names[0], &request->names[1]), "two files are enough");
+    if (!request->names[1])
         cli_die(cli, "two files are needed; try --help");
     if (request->params.part && request->params.all_parts)
         cli_die(cli, "--part and --all-parts exclude each other");

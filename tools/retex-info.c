@@ -429,14 +429,6 @@ static void check_request(Cli *cli, const Request *request)
     cli_writes(cli, "--layers", request->layers);
 }
 
-static void take_path(Cli *cli, void *to)
-{
-    Request *request = to;
-    if (request->path)
-        cli_die(cli, "one set at a time: what is %s?", cli->value);
-    request->path = cli->value;
-}
-
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-info",
@@ -447,7 +439,7 @@ int main(int argc, char **argv)
                .argv = argv,
                .next = 1};
     Request request = {0};
-    cli_parse(&cli, &request, take_path);
+    cli_parse(&cli, &request, CLI_ARGUMENTS(&request.path), "one set is enough");
     check_request(&cli, &request);
     cli_answer(&cli);
     return cli_close(&cli, request.layers     ? write_layers(&cli, &request)

@@ -21,17 +21,9 @@ static const CliOption options[] = {
     {0},
 };
 
-static void take_set(Cli *cli, void *to)
-{
-    Job *job = to;
-    if (job->set)
-        cli_surplus(cli, "one set is enough");
-    job->set = cli->value;
-}
-
 static void parse(Cli *cli, Job *job)
 {
-    cli_parse(cli, job, take_set);
+    cli_parse(cli, job, CLI_ARGUMENTS(&job->set), "one set is enough");
     if (!job->set)
         cli_die(cli, "no set given; - is standard input");
     if (job->preset) /* what it says of lamps and the picture is for retex-combine */

@@ -108,17 +108,9 @@ static const CliOption options[] = {
     {0},
 };
 
-static void take_folder(Cli *cli, void *to)
-{
-    Job *job = to;
-    if (job->folder)
-        cli_surplus(cli, "one folder of rooms is enough");
-    job->folder = cli->value;
-}
-
 static void parse(Cli *cli, Job *job)
 {
-    cli_parse(cli, job, take_folder);
+    cli_parse(cli, job, CLI_ARGUMENTS(&job->folder), "one folder of rooms is enough");
     if (job->sign && !job->http.keys.count)
         cli_die(cli, "--sign needs a key: add --key-file FILE");
     if (!job->folder && !job->sign)

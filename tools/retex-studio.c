@@ -37,17 +37,9 @@ static const CliOption options[] = {
     {0},
 };
 
-static void take_model(Cli *cli, void *to)
-{
-    Options *given = to;
-    if (given->file)
-        cli_surplus(cli, "one model is enough");
-    given->file = cli->value;
-}
-
 static void parse(Cli *cli, Options *given)
 {
-    cli_parse(cli, given, take_model);
+    cli_parse(cli, given, CLI_ARGUMENTS(&given->file), "one model is enough");
     if (given->is_unsafe && cli->access.safe)
         cli_die(cli, "--unsafe cannot be given with --safe or RETEX_SAFE");
 }

@@ -124,7 +124,7 @@ $ retex-diff a.exr
 ! retex-diff: error: two files are needed; try --help
 = 2
 $ retex-diff a.exr b.exr c.exr
-! retex-diff: error: more than two files: 'c.exr'
+! retex-diff: error: two files are enough; is -o c.exr meant?
 = 2
 $ retex-diff a.exr none.exr
 ! retex-diff: error: cannot read none.exr: No such file or directory

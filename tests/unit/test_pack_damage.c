@@ -1,6 +1,5 @@
 /* Incomplete and inconsistent packs are refused. */
 #include "lib_folder.h"
-#include "lib_folder.h"
 #include "lib_pack.h"
 
 #include <stdio.h>

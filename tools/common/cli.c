@@ -352,11 +352,13 @@ int cli_take(Cli *cli, const CliOption *option, void *job)
     return 1;
 }
 
-void cli_parse(Cli *cli, void *job, void (*argument)(Cli *cli, void *job))
+void cli_parse(Cli *cli, void *job, const char **const arguments[], const char *surplus)
 {
     for (const CliOption *option; (option = cli_next(cli));)
-        if (option == &cli_positional)
-            argument(cli, job);
+        if (option == &cli_positional && !*arguments)
+            cli_surplus(cli, surplus);
+        else if (option == &cli_positional)
+            **arguments++ = cli->value;
         else if (!cli_take(cli, option, job))
             cli_die(cli, "--%s: nothing takes it", option->name); /* a mistake in the table */
 }

@@ -74,9 +74,10 @@ struct Cli {
     size_t answer_bytes;
 };
 
-/* Parse the command line: options go into `job`, a structure of the type that their rows name, as they are read;
- * `argument` is called for each positional argument, with its text in cli->value. */
-void cli_parse(Cli *cli, void *job, void (*argument)(Cli *cli, void *job));
+/* Parse the command line: options go into `job`, a structure of the type that their rows name, as they are read, and
+ * positional arguments where `arguments` points, up to a NULL; `surplus` is what cli_surplus says of one more. */
+void cli_parse(Cli *cli, void *job, const char **const arguments[], const char *surplus);
+#define CLI_ARGUMENTS(...) ((const char **const[]){__VA_ARGS__, NULL})
 
 /* Return the next option of the tool's own table and set cli->value and cli->modifiers. Return &cli_positional for a
  * positional argument, with its text in cli->value ("-" is positional), and NULL at the end. Long options take
