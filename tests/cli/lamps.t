@@ -1,50 +1,108 @@
 # Lamps of a set: values on the command line, in tables, in streams and in names that OpenImageIO opens.
-$ make_set s.exr 48 32; make_lamp_terms s.exr l.exr; cp "$SCENES/textures/brick.jpg" .; retex-info l.exr | grep -A1 ^param
+$ make_set s.exr 48 32
+$ make_lamp_terms s.exr l.exr
+$ cp "$SCENES/textures/brick.jpg" .
+$ retex-info l.exr | grep -A1 ^param
 > parameter Lamp
 >   as rendered  1 0.5 2
 > parameter Window
 >   as rendered  1 1 1
 > parameter rest
 >   as rendered  1 1 1
-$ make_lamp_terms s.exr m.exr several; make_lamp_terms s.exr o.exr off; retex-info m.exr | grep several; retex-info o.exr | grep -A2 Window
+$ make_lamp_terms s.exr m.exr several
+$ make_lamp_terms s.exr o.exr off
+$ retex-info m.exr | grep several
 >   light        of several colours, which a new one multiplies
+$ retex-info o.exr | grep -A2 Window
 > parameter Window
 >   as rendered  0 0 0
 >   shines with  1 1 1
 
 # Where no lamp is changed the picture is, to the byte, that of the set without lamps.
-$ for t in original brick.jpg; do for f in s l; do retex-combine -q $f.exr $(test $t = original || echo --texture Floor=$t) $(test $f = s || echo --light Lamp=1) -o $f-$t.exr; done; cmp s-$t.exr l-$t.exr; done
+$ for t in original brick.jpg; do
++     for f in s l; do
++         retex-combine \
++             -q $f.exr $(test $t = original || echo --texture Floor=$t) $(test $f = s || echo --light Lamp=1) \
++             -o $f-$t.exr
++     done
++     cmp s-$t.exr l-$t.exr
++ done
 $ retex-combine l.exr --light lamp=2*rgb'(1,1,1)' --light Window=0 -o a.exr 2>&1 | sed 's/, [0-9.]* s$//'
 > retex-combine: a.exr: original textures, light:Window=0;light:lamp=2*rgb(1,1,1), 48 x 32
 
 # Lamps add up: each alone, and all.
-$ for n in Lamp Window rest; do retex-combine -q l.exr --texture Floor=brick.jpg --solo $n -o $n.exr; done; oiiotool Lamp.exr Window.exr --add rest.exr --add -o sum.exr; retex-combine -q l.exr --texture Floor=brick.jpg --light '*=1*1' --light Lamp=1 -o all.exr; retex-diff -q sum.exr all.exr --fail-psnr 55; retex-diff -q Lamp.exr all.exr --fail-psnr 40
+$ for n in Lamp Window rest; do retex-combine -q l.exr --texture Floor=brick.jpg --solo $n -o $n.exr; done
+$ oiiotool Lamp.exr Window.exr --add rest.exr --add -o sum.exr
+$ retex-combine -q l.exr --texture Floor=brick.jpg --light '*=1*1' --light Lamp=1 -o all.exr
+$ retex-diff -q sum.exr all.exr --fail-psnr 55
+$ retex-diff -q Lamp.exr all.exr --fail-psnr 40
 = 1
 
 # A lamp that is off is not in the picture, and is turned on by its brightness.
-$ retex-combine -q o.exr -o off.exr; retex-combine -q l.exr --light Window=0 -o without.exr; retex-diff -q off.exr without.exr --fail-psnr 80; retex-combine -q o.exr --light Window=1 -o on.exr; retex-combine -q l.exr -o whole.exr; cmp on.exr s-original.exr
+$ retex-combine -q o.exr -o off.exr
+$ retex-combine -q l.exr --light Window=0 -o without.exr
+$ retex-diff -q off.exr without.exr --fail-psnr 80
+$ retex-combine -q o.exr --light Window=1 -o on.exr
+$ retex-combine -q l.exr -o whole.exr
+$ cmp on.exr s-original.exr
 
 # The same in one pass, from samples, from a stream, and in a table.
-$ V='--light Lamp=2*3000K --light *=0 --light Window=red'; retex-combine -q l.exr --texture Floor=brick.jpg $V -o one.exr; retex-sample -q l.exr --texture Floor=brick.jpg -o x.exr; retex-combine -q l.exr x.exr $V -o two.exr; cmp one.exr two.exr; retex-sample -q l.exr --texture Floor=brick.jpg | retex-combine -q - $V -o three.exr; cmp one.exr three.exr; retex-combine -q l.exr --threads 1 --texture Floor=brick.jpg $V -o four.exr; cmp one.exr four.exr
-$ printf 'output,Floor,light:lamp,light:*,light:Window\nfive.exr,brick.jpg,2*3000K,0,red\nsix.exr,,,,\n' >t.csv; retex-combine -q l.exr --batch t.csv; cmp one.exr five.exr; cmp six.exr s-original.exr
-$ printf 'output,Floor,light:lamp\nseven.exr,brick.jpg,2*3000K\neight.exr,brick.jpg,\n' >t.csv; retex-combine -q l.exr --batch t.csv --solo Lamp --light Window=red; cmp one.exr seven.exr; retex-diff -q one.exr eight.exr --fail-psnr 60
+$ V='--light Lamp=2*3000K --light *=0 --light Window=red'
++ retex-combine -q l.exr --texture Floor=brick.jpg $V -o one.exr
++ retex-sample -q l.exr --texture Floor=brick.jpg -o x.exr
++ retex-combine -q l.exr x.exr $V -o two.exr
++ cmp one.exr two.exr
++ retex-sample -q l.exr --texture Floor=brick.jpg | retex-combine -q - $V -o three.exr
++ cmp one.exr three.exr
++ retex-combine -q l.exr --threads 1 --texture Floor=brick.jpg $V -o four.exr
+$ cmp one.exr four.exr
+$ printf 'output,Floor,light:lamp,light:*,light:Window\nfive.exr,brick.jpg,2*3000K,0,red\nsix.exr,,,,\n' >t.csv
+$ retex-combine -q l.exr --batch t.csv
+$ cmp one.exr five.exr
+$ cmp six.exr s-original.exr
+$ printf 'output,Floor,light:lamp\nseven.exr,brick.jpg,2*3000K\neight.exr,brick.jpg,\n' >t.csv
+$ retex-combine -q l.exr --batch t.csv --solo Lamp --light Window=red
+$ cmp one.exr seven.exr
+$ retex-diff -q one.exr eight.exr --fail-psnr 60
 = 1
-$ retex-combine -q l.exr --texture Floor=brick.jpg --light Lamp=2*3000K --light '*=0' --light Window=red --error e.exr -o nine.exr; cmp one.exr nine.exr; retex-combine -q l.exr --texture Floor=brick.jpg --error f.exr -o nine.exr; cmp -s e.exr f.exr
+$ retex-combine -q l.exr --texture Floor=brick.jpg --light Lamp=2*3000K --light '*=0' --light Window=red --error e.exr \
++     -o nine.exr
+$ cmp one.exr nine.exr
+$ retex-combine -q l.exr --texture Floor=brick.jpg --error f.exr -o nine.exr
+$ cmp -s e.exr f.exr
 = 1
 
 # With a journal, a picture is made again where a lamp of its row has changed.
-$ retex-combine -q l.exr --batch t.csv --manifest j; retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'; sed -i s/2.3000K/3000K/ t.csv; retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'
+$ retex-combine -q l.exr --batch t.csv --manifest j
+$ retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'
 > retex-combine: 0 pictures, 2 kept
+$ sed -i s/2.3000K/3000K/ t.csv
+$ retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'
 > retex-combine: seven.exr: Floor <- brick.jpg, light:Lamp=rgb(1.754746,0.8492223,0.27115253), 48 x 32
 > retex-combine: 1 picture, 1 kept
 
 # Packs: without loss, with it, where a dim lamp stays as fine as a bright one, and without lamps.
-$ make_set n.exr 96 64 footprints denoise; make_lamp_terms n.exr f.exr; retex-pack -q f.exr --lossless -o a.retex; retex-pack -q f.exr -o b.retex 2>&1; for v in Lamp=20 Window=red rest=.01; do for p in f.exr a.retex b.retex; do retex-combine -q $p --light $v --light '*=0' -o $p.png --depth 16; done; cmp f.exr.png a.retex.png; retex-diff -q f.exr.png b.retex.png --fail-psnr 44; done
+$ make_set n.exr 96 64 footprints denoise
+$ make_lamp_terms n.exr f.exr
+$ retex-pack -q f.exr --lossless -o a.retex
+$ retex-pack -q f.exr -o b.retex 2>&1
 > retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
-$ retex-pack -q f.exr --no-lamps -o c.retex 2>&1; retex-pack -q n.exr -o d.retex 2>&1; cmp c.retex d.retex; retex-info c.retex 2>/dev/null | grep -c param; retex-pack -q f.exr --no-lamps --lossless -o c.retex; retex-pack -q n.exr --lossless -o d.retex; cmp c.retex d.retex
+$ for v in Lamp=20 Window=red rest=.01; do
++     for p in f.exr a.retex b.retex; do retex-combine -q $p --light $v --light '*=0' -o $p.png --depth 16; done
++     cmp f.exr.png a.retex.png
++     retex-diff -q f.exr.png b.retex.png --fail-psnr 44
++ done
+$ retex-pack -q f.exr --no-lamps -o c.retex 2>&1
 > retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
+$ retex-pack -q n.exr -o d.retex 2>&1
 > retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
+$ cmp c.retex d.retex
+$ retex-info c.retex 2>/dev/null | grep -c param
 > 0
+= 1
+$ retex-pack -q f.exr --no-lamps --lossless -o c.retex
+$ retex-pack -q n.exr --lossless -o d.retex
+$ cmp c.retex d.retex
 $ make_lamp_terms n.exr g.exr off; retex-pack g.exr --no-lamps -o e.retex
 ! retex-pack: error: the lamp Window is off in the picture, which only a set with lamps can tell
 = 2
@@ -76,7 +134,9 @@ $ printf 'output,light:Lamp\ny.exr,1\n' >w.csv; retex-combine s.exr --batch w.cs
 = 2
 
 # What shines in the project's scenes has a name.
-$ for s in cornell-box glass-caustics kitchen living-room; do retex-render -q --size 32x24 --list-lamps "$SCENES/$s/$s.pov" | sed 's/^[ 0-9.]*%  //'; done
+$ for s in cornell-box glass-caustics kitchen living-room; do
++     retex-render -q --size 32x24 --list-lamps "$SCENES/$s/$s.pov" | sed 's/^[ 0-9.]*%  //'
++ done
 > Lamp  rgb(20,17,12.4)
 > Lamp  rgb(7.6,6.8,5.6)
 > sky  several colours
@@ -91,8 +151,13 @@ $ for s in cornell-box glass-caustics kitchen living-room; do retex-render -q --
 > Lamp  several colours
 
 # What stands after the share is what -l takes, also of what has no name, and where another has the name of its number.
-$ printf '%s\n' 'camera { location <0,1,-4> look_at <0,.6,0> angle 40 } sky_sphere { pigment { rgb .3 } } light_source { <1,3,-2> rgb 2 } light_source { <-1,3,-2> rgb <1,.5,.2> spotlight point_at 0 } #declare Sun = light_source { <0,5,0> rgb .3 } light_source { Sun }' 'plane { y, 0 pigment { rgb .8 } } mesh { triangle { <-1,2,-2>, <1,2,-2>, <1,2,0> } pigment { rgb 1 } finish { emission 3 diffuse 0 } } union { sphere { <1,1,0>, .1 } sphere { <1.3,1,0>, .1 } pigment { rgb 1 } finish { emission 4 } }' '#declare light2 = texture { pigment { rgb 1 } finish { emission 1 } } box { <-1,0,0>, <-.8,.2,.2> texture { light2 } } #declare Sky = sphere { <-1.4,1,0>, .1 pigment { rgb <1,.5,.2> } finish { emission 4 } } object { Sky }' >stranger.pov
-$ retex-render -q --size 32x24 --list-lamps stranger.pov | sed 's/^[ 0-9.]*%  //' >list; cat list; sed 's/  .*//; /^rest$/d' list >specs; retex-render -q --size 32x24 --list-lamps $(sed 's/^/-l /' specs) stranger.pov | sed 's/^[ 0-9.]*%  //' | cmp - list; retex-render -q --size 8x6 --spp 1 --lamps each stranger.pov -o x.exr
+$ cat >stranger.pov <<'END'
++ camera { location <0,1,-4> look_at <0,.6,0> angle 40 } sky_sphere { pigment { rgb .3 } } light_source { <1,3,-2> rgb 2 } light_source { <-1,3,-2> rgb <1,.5,.2> spotlight point_at 0 } #declare Sun = light_source { <0,5,0> rgb .3 } light_source { Sun }
++ plane { y, 0 pigment { rgb .8 } } mesh { triangle { <-1,2,-2>, <1,2,-2>, <1,2,0> } pigment { rgb 1 } finish { emission 3 diffuse 0 } } union { sphere { <1,1,0>, .1 } sphere { <1.3,1,0>, .1 } pigment { rgb 1 } finish { emission 4 } }
++ #declare light2 = texture { pigment { rgb 1 } finish { emission 1 } } box { <-1,0,0>, <-.8,.2,.2> texture { light2 } } #declare Sky = sphere { <-1.4,1,0>, .1 pigment { rgb <1,.5,.2> } finish { emission 4 } } object { Sky }
++ END
+$ retex-render -q --size 32x24 --list-lamps stranger.pov | sed 's/^[ 0-9.]*%  //' >list
+$ cat list
 > light1=light_source#1  rgb(2,2,2)
 > light2_=light_source#2  rgb(1,0.214,0.0331)
 > Sun  rgb(0.0732,0.0732,0.0732)
@@ -102,6 +167,25 @@ $ retex-render -q --size 32x24 --list-lamps stranger.pov | sed 's/^[ 0-9.]*%  //
 > object3=#3  rgb(25.3,25.3,25.3)
 > object4=#4  rgb(25.3,25.3,25.3)
 > rest  all other light
+$ sed 's/  .*//; /^rest$/d' list >specs
+$ retex-render -q --size 32x24 --list-lamps $(sed 's/^/-l /' specs) stranger.pov | sed 's/^[ 0-9.]*%  //' | cmp - list
+$ retex-render -q --size 8x6 --spp 1 --lamps each stranger.pov -o x.exr
 
 # In parts, stopped and gone on with, and as frames: the same bits.
-$ scene=$TESTS/../../docs/suns.pov; render() { retex-render -q --size 32x24 --spp 2 -t Floor --lamps each "$@"; }; render $scene -o whole.exr; for i in 1 2; do render --shard $i/2 $scene -o part$i; done; render --merge part1 --merge part2 $scene -o merged.exr; cmp whole.exr merged.exr; render --max-time 0.0001 --resume $scene -o again.exr 2>/dev/null; render --resume $scene -o again.exr; cmp whole.exr again.exr; render --frames 1-2 $scene -o f-%d.exr; retex-combine -q f-%d.exr --frames 1-2 --solo Sun_16 -o p-%d.exr; retex-combine -q whole.exr --solo Sun_16 -o p.exr; retex-diff -q p-1.exr p.exr; retex-diff -q p-2.exr p.exr; rm whole.exr merged.exr again.exr f-*.exr p*.exr part*
+% render() { retex-render -q --size 32x24 --spp 2 -t Floor --lamps each "$@"; }
+$ scene=$TESTS/../../docs/suns.pov
++ render $scene -o whole.exr
++ for i in 1 2; do render --shard $i/2 $scene -o part$i; done
++ render --merge part1 --merge part2 $scene -o merged.exr
++ cmp whole.exr merged.exr
++ render --max-time 0.0001 --resume $scene -o again.exr 2>/dev/null
++ render --resume $scene -o again.exr
++ cmp whole.exr again.exr
++ render --frames 1-2 $scene -o f-%d.exr
+$ retex-combine -q f-%d.exr --frames 1-2 --solo Sun_16 -o p-%d.exr
+$ retex-combine -q whole.exr --solo Sun_16 -o p.exr
+$ retex-diff -q p-1.exr p.exr
+= 1
+$ retex-diff -q p-2.exr p.exr
+= 1
+$ rm whole.exr merged.exr again.exr f-*.exr p*.exr part*
