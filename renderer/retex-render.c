@@ -9,7 +9,6 @@
 #include <retex/host/set_build.h>
 #include "retex-render.h"
 #include "common/watchdog.h"
-#include "render/aov_files.h"
 #include "render/mattes.h"
 
 /* Announce all files of the command line. Files that the scene names are not among them. */

@@ -10,6 +10,10 @@
 typedef struct Vec3 { double x, y, z; } Vec3;
 typedef struct Vec2 { double u, v; } Vec2;
 typedef struct Rgb { float r, g, b; } Rgb;
+typedef struct Ray {
+    Vec3 origin, direction; /* direction of unit length */
+    double tmin, tmax;
+} Ray;
 
 static inline Vec3 vec3(double x, double y, double z) { return (Vec3){x, y, z}; }
 static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }

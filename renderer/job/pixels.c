@@ -7,7 +7,7 @@
 #include "light/environment.h"
 #include "path/projection.h"
 #include "path/target_units.h"
-#include "shape/faces.h"
+#include "faces/faces.h"
 
 enum { PIXELS_MAX = 64 };
 typedef struct Pixels {

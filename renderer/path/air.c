@@ -2,6 +2,7 @@
 #include "medium/fog.h"
 #include "medium/rainbow.h"
 #include "path/internal.h"
+#include "path/path.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
 

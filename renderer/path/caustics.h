@@ -14,23 +14,11 @@
 #include <stdint.h>
 #include "accel/accel.h"
 #include "light/lights.h"
-
-#define CAUSTICS_LOBES 16
+#include "path/caustics_kernel.h"
 
 typedef struct Caustics Caustics;
 
 typedef enum CausticsOf { CAUSTICS_OF_SOURCES, CAUSTICS_OF_EMITTERS, CAUSTICS_OF_SMALL_EMITTERS } CausticsOf;
-
-typedef struct CausticsCell {
-    float x[CAUSTICS_LOBES], y[CAUSTICS_LOBES], z[CAUSTICS_LOBES]; /* where photons came from, in world space */
-    float move[9][CAUSTICS_LOBES];       /* how that point moves with the vertex, row by row */
-    float concentration[CAUSTICS_LOBES]; /* k */
-    float at_x[CAUSTICS_LOBES], at_y[CAUSTICS_LOBES], at_z[CAUSTICS_LOBES]; /* where they landed */
-    float narrow[CAUSTICS_LOBES]; /* 1 / squared distance over which its weight fades */
-    float weight[CAUSTICS_LOBES]; /* its weight there; 0 for unused lobes */
-    int nlobes;
-    float share; /* probability of sampling by the guide, 0..0.5 */
-} CausticsCell;
 
 /* Photons start from light sources that have caustics and, unless `of` is CAUSTICS_OF_SOURCES, from shapes that emit;
  * with CAUSTICS_OF_SMALL_EMITTERS the guide is given up where it is not worth its time. paths: the number of paths of
@@ -41,10 +29,5 @@ int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel,
 void caustics_close(Caustics **caustics);
 /* The cell of a point, or NULL where no photons landed. */
 const CausticsCell *caustics_find(const Caustics *caustics, Vec3 position);
-
-/* caustics_kernel.c: a direction by u_lobe (which lobe), u1 and u2, unit length; and the density with which it is
- * found, per solid angle. */
-Vec3 caustics_sample(const CausticsCell *cell, Vec3 position, float u_lobe, float u1, float u2);
-float caustics_density(const CausticsCell *cell, Vec3 position, Vec3 direction);
 
 #endif

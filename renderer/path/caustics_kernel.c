@@ -1,7 +1,7 @@
 /* Lobes of a cell of the guide to caustics: drawing a direction and its density. */
 #include <string.h>
 #include "base/color4.h"
-#include "path/caustics.h"
+#include "path/caustics_kernel.h"
 
 /* Weights of four lobes at a point, given relative to where their photons landed. */
 static inline Float4 weigh_four(const CausticsCell *c, int k, Float4 x, Float4 y, Float4 z)

@@ -3,6 +3,7 @@
  * `beta` is the throughput with all factors, in the first variant of the textures: the picture's. The other sinks keep
  * theirs, so each factor is told to all of them. */
 #include "path/internal.h"
+#include "path/path.h"
 
 int path_worker_open(PathWorker *w, RetexError *err)
 {

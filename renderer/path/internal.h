@@ -5,7 +5,9 @@
 #include "base/color4.h"
 #include "camera/camera.h"
 #include "path/leaves.h"
-#include "path/path.h"
+#include "path/caustics_kernel.h"
+#include "path/context.h"
+#include "path/vertex_samples.h"
 
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
 #define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */

@@ -9,6 +9,7 @@
  * see matte.h. */
 #include <string.h>
 #include "path/internal.h"
+#include "path/path.h"
 #include "path/matte.h"
 #include "shade/material.h"
 

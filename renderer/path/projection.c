@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "path/projection.h"
-#include "shape/faces.h"
+#include "faces/faces.h"
 #include "shape/shape.h"
 
 #define FLOOR_COSINE 0.9659258262890683 /* of 15 degrees */

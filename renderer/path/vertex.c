@@ -1,4 +1,5 @@
 /* What is chosen at a surface: a light, and the next direction, by the BSDF or by the guide to caustics. */
+#include "path/caustics.h"
 #include "path/internal.h"
 #include "shade/pigment.h"
 

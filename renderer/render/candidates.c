@@ -7,7 +7,7 @@
 #include "render/candidates.h"
 #include "render/internal.h"
 #include "render/label.h"
-#include "render/scene_faces.h"
+#include "faces/scene_faces.h"
 #include "shape/shape.h"
 
 #define FLAT_LEAST 0.01    /* share of the picture of flat faces that are listed */

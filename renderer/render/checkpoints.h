@@ -3,7 +3,7 @@
 #define RENDERER_RENDER_CHECKPOINTS_H
 
 #include "film/film.h"
-#include "render/render.h"
+#include "render/params.h"
 
 /* Open the band store for the picture's finished bands: a checkpoint or a temporary file, as the parameters say. *store
  * is NULL if bands are kept in memory only. Fails if files of a shard or of --merge are not of this render. */

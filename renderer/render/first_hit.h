@@ -3,10 +3,10 @@
 #ifndef RENDERER_RENDER_FIRST_HIT_H
 #define RENDERER_RENDER_FIRST_HIT_H
 
+#include <retex/host/aov.h>
 #include "accel/accel.h"
+#include "faces/shown.h"
 #include "path/shading.h"
-#include "render/render.h"
-#include "render/shown.h"
 
 typedef struct FirstHitWindow {
     const Scene *scene;

@@ -8,6 +8,7 @@
 #include "render/adaptive.h"
 #include "render/denoise_guides.h"
 #include "render/first_hit.h"
+#include "render/params.h"
 #include "path/path.h"
 
 #define TILE_WIDTH 32
@@ -21,7 +22,7 @@ typedef struct Render {
     int tiles_x, tiles_y;
     Accel *accel;
     Lights *lights;
-    Caustics *caustics; /* or NULL */
+    struct Caustics *caustics; /* or NULL */
     RetexBandStore *store; /* for the film, which then owns it; or NULL */
     Film *film;
     FilmPixel **pixels;            /* by thread */

@@ -6,9 +6,11 @@
 #include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include "light/lights.h"
+#include "path/caustics.h"
 #include "path/projection.h"
 #include "path/target_units.h"
 #include "render/live.h"
+#include "render/render.h"
 
 enum { TILE_PIXELS = TILE_WIDTH * TILE_HEIGHT };
 #define FAR 4 /* times the bounds: how far away a camera may be of which the ray structure knew nothing */

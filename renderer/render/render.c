@@ -10,6 +10,7 @@
 #include "render/internal.h"
 #include "render/mean_aovs.h"
 #include "render/originals.h"
+#include "render/render.h"
 #include "render/uv_scale.h"
 
 int render_start_set(RetexSet **set, const Render *r, RetexError *err)

@@ -6,9 +6,11 @@
 #include "camera/camera.h"
 #include "film/paper/paper.h"
 #include "render/checkpoints.h"
+#include "path/caustics.h"
 #include "path/photons.h"
 #include "render/internal.h"
 #include "render/originals.h"
+#include "render/render.h"
 
 static int check_params(const RenderParams *p, RetexError *err)
 {

@@ -3,7 +3,7 @@
 #define RENDERER_RENDER_SURFACES_H
 
 #include "render/first_hit.h"
-#include "render/scene_faces.h"
+#include "faces/scene_faces.h"
 
 enum { SURFACE_SCOPES = 4, SURFACES_MAX = 65535 };
 

@@ -5,6 +5,7 @@
 #include "film/limits.h"
 #include "render/control_constants.h"
 #include "render/internal.h"
+#include "render/render.h"
 
 static long limit_picture(RetexImage *picture)
 {

@@ -3,6 +3,7 @@
 #include <retex/host/texture_lookup.h>
 
 #include "pattern/pattern.h"
+#include "shade/pigment.h"
 #include "shade/pigment_image.h"
 #include "shade/working_space.h"
 

@@ -36,8 +36,8 @@ int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment is opaque everywhere: no filter, no transmit, no alpha of an image, no image with `once`. This is
  * the only place that decides it. */
 int pigment_is_opaque(const Pigment *pigment);
-/* UV of an image_map's projection at a point of pattern space: planar, spherical, cylindrical or toroidal. */
-Vec2 pigment_image_uv(const ImageMap *image, Vec3 pattern_point);
+/* The pigment's colour at a point of its pattern space, scene-linear. */
+Rgbft pigment_pattern(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* Bake the pigment's colour over the UV rectangle low..high (through target_uv's inverse this is exact for uv_mapping
  * and image maps; other pigments are baked on the plane through 0 of their pattern space that the dominant-axis rule
  * gives for axis 0..2). dst: RGB, unallocated, width x height. nthreads: as of retex_parallel. */

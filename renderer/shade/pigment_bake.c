@@ -1,5 +1,6 @@
 /* Baking: the way back from a pigment to an image. */
 #include <retex/parallel.h>
+#include "shade/pigment.h"
 #include "shade/pigment_image.h"
 
 /* Where target_uv's UV came from, in pattern space. */

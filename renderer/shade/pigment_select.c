@@ -1,5 +1,6 @@
 /* Pigments that choose among textures: see TextureTree. */
 #include "pattern/pattern.h"
+#include "shade/pigment.h"
 #include "shade/pigment_image.h"
 
 double pigment_value(const Pigment *pigment, const PatternPoint *at, Vec2 uv)

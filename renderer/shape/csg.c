@@ -4,6 +4,7 @@
 #include <string.h>
 #include "shape/csg.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 /* ---- inside ---- */
 

@@ -10,7 +10,8 @@
 #ifndef RENDERER_SHAPE_CSG_H
 #define RENDERER_SHAPE_CSG_H
 
-#include "shape/bvh.h"
+#include "base/bvh.h"
+#include "shape/hit.h"
 
 typedef enum CsgKind { CSG_LEAF, CSG_UNION, CSG_INTERSECTION, CSG_MERGE } CsgKind;
 

@@ -3,8 +3,9 @@
  * CSG, trace() and inside() go by a tree over the faces. Between corners with textures of their own these are blended:
  * a point has each with the corner's barycentric weight as its probability. Natural parametrisation: uv_vectors. */
 #include <stdlib.h>
-#include "shape/bvh.h"
+#include "base/bvh.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 static void triangles(const Shape *shape, ShapeTriangles *out)
 {

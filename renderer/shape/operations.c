@@ -1,6 +1,7 @@
 /* Operations of shapes, by their table. */
 #include <float.h>
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 static double largest(Vec3 a)
 {

@@ -4,8 +4,7 @@
 #ifndef RENDERER_SHAPE_SHAPE_H
 #define RENDERER_SHAPE_SHAPE_H
 
-#include "shape/shapes.h"
-#include "shape/surface.h"
+#include "shape/hit.h"
 
 /* A ray in canonical space; its direction keeps the length that makes t the world's. */
 typedef struct ShapeRay {

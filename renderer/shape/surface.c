@@ -1,6 +1,7 @@
 /* The surface at a hit: from a ray and what the tracer said of it to a point exactly on the shape, with its normals,
  * its UVs and whose texture and target it is. */
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 /* Of two, the one that was asked for first. */
 static int first_target(int a, int b)

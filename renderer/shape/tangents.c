@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 /* ---- corners of meshes ---- */
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Rules that a script can check: make lint.
 #   - includes between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
-#   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of files
+#   - order of the rooms of tools/libretex and of the renderer; no circles of headers, of files, nor of units; their size
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
@@ -85,7 +85,7 @@ back=$(rooms tools 1:common 2:batch 2:http 2:decode 3:combine 3:page 3:studio \
     3:serve/request 3:serve/answer 3:serve/clients 4:serve/files 5:serve/site 6:serve/http)
 [ -z "$back" ] || complain "rooms of tools, from one that stands later:
 $back"
-back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light \
+back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:faces 4:shade 5:medium 5:camera 6:accel 6:light \
     7:sdl/state 8:sdl/texture 9:sdl/medium 10:sdl/object 11:sdl/camera 12:sdl/place 13:sdl \
     7:film 8:film/footprints 8:film/paper 9:path 14:render 15:job)
 [ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
@@ -112,6 +112,19 @@ done
 recursive='^sdl/'
 no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
     "files of the renderer that need each other"
+# Nor of units, a file with its header each, by what they include. Of the library, rooms that are not so yet are left out.
+found=$(/usr/bin/python3 tests/lib/circles.py renderer "$recursive"
+    /usr/bin/python3 tests/lib/circles.py tools/libretex '^(set|edit|picture|compact|pack)/')
+[ -z "$found" ] || complain "units that include each other's headers, by however many steps:
+$found"
+
+# Rooms of the renderer that can be overlooked.
+for room in $(find renderer -type d); do
+    [ "$(find "$room" -maxdepth 1 -type f | wc -l)" -le 40 ] || complain "$room has more than 40 files"
+done
+for header in $(find renderer -name '*.h'); do
+    [ "$(wc -l <"$header")" -le 350 ] || complain "$header has more than 350 lines"
+done
 
 # What the product defines once. Tests may compute it by themselves, as a reference; man pages and texts may name it.
 one_definition() { # file pattern what

@@ -5,7 +5,7 @@
 #include "accel/accel.h"
 #include "job/job.h"
 #include "lib_scene.h"
-#include "shape/faces.h"
+#include "faces/faces.h"
 #include "shape/shape.h"
 
 static double random_number(unsigned *seed)

@@ -9,6 +9,7 @@
 #include "pattern/warp.h"
 #include "shade/pigment.h"
 #include "shade/pigment_image.h"
+#include "shade/pigment_image.h"
 
 static const Vec2 nowhere = {0, 0};
 

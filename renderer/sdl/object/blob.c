@@ -2,6 +2,7 @@
 #include "sdl/object/shape.h"
 #include "shape/blob.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 /* A blob that is being read. */
 typedef struct BlobParts {

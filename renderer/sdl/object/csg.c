@@ -1,6 +1,7 @@
 /* Objects as trees of CSG: what they contain, for clipped_by, bounded_by, inside() and trace(). */
 #include "sdl/object/csg.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 /* Turned inside out, a union or merge is the intersection of its children turned inside out, and the reverse. */
 static CsgKind kind_of(const Object *object, int inverse)

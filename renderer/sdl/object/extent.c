@@ -4,6 +4,7 @@
  * count. */
 #include "sdl/object/object.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 #define EVERYWHERE 1e10 /* what a plane reaches; POV-Ray's figure */
 

@@ -4,6 +4,7 @@
  * address of the object: objects never change, and live as long as the scene. */
 #include "sdl/object/csg.h"
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 #define NEAREST 1e-4 /* nothing is hit closer than that, as in POV-Ray */
 

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "denoise/tile.h"
+#include "denoise/denoiser.h"
 
 /* A number of a set as denoising takes it. */
 static inline float retex_denoise_finite(float v)

@@ -7,6 +7,7 @@
 #include <retex/parallel.h>
 
 #include "denoise/footprints.h"
+#include "denoise/tile.h"
 #include "set/set.h"
 
 /* The results of a row of tiles stay in rows of their own until no other tile reads the pixels that they replace. */

@@ -6,7 +6,7 @@
 #include <retex/host/rounding.h>
 #include <retex/host/uv_stats.h>
 
-#include "denoise/pools.h"
+#include "denoise/footprints.h"
 #include "set/set.h"
 
 #define NEGLIGIBLE 1e-2f   /* neighbours with less weight are left out */

@@ -2,18 +2,13 @@
 #ifndef RETEX_DENOISE_FOOTPRINTS_H
 #define RETEX_DENOISE_FOOTPRINTS_H
 
-#include "denoise/tile.h"
+#include "denoise/pools.h"
 
 /* A pixel that is similar to the one being filtered, which is the first of its own neighbours; weight 0..1. */
 typedef struct RetexNeighbour {
     int x, y;
     float weight;
 } RetexNeighbour;
-
-/* How the footprints of a set are distributed and pooled; found once for each call. */
-typedef struct RetexDenoiseFootprints RetexDenoiseFootprints;
-int retex_denoise_footprints_open(RetexDenoiseFootprints **footprints, const RetexDenoiser *denoiser, RetexError *err);
-void retex_denoise_footprints_close(RetexDenoiseFootprints **footprints);
 
 /* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into out. signal is one of
  * denoiser->signals. Sharp clusters keep their UV and the proportions of their light; where the pixel has none, those
@@ -28,9 +23,5 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *footprints, const R
  * second and further hits. */
 void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser, int x,
                                          int y, const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out);
-
-/* Set written[part] = 1 for the parts of the set that these calls write. */
-void retex_denoise_mark_written(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser,
-                                unsigned char *written);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <retex/host/band_store.h>
 
-#include "denoise/tile.h"
+#include "denoise/denoiser.h"
 #include "set/set.h"
 
 /* Offsets of the floats of a pixel. */

@@ -1,11 +1,10 @@
-/* Which footprints of a set are distributed and pooled together, and their parts. Private to footprints.c and
- * pools.c. */
+/* Which footprints of a set are distributed and pooled together, and their parts. Private to libretex. */
 #ifndef RETEX_DENOISE_POOLS_H
 #define RETEX_DENOISE_POOLS_H
 
 #include <retex/color.h>
 
-#include "denoise/footprints.h"
+#include "denoise/denoiser.h"
 
 #define FOOTPRINT_VALUE_MAX 1e12f /* larger values count as absent */
 #define FOOTPRINT_CLASS_MAX RETEX_SHARES_MAX
@@ -35,7 +34,8 @@ typedef struct RetexFootprintClass {
                                     none */
 } RetexFootprintClass;
 
-struct RetexDenoiseFootprints {
+/* How the footprints of a set are distributed and pooled; found once for each call. */
+typedef struct RetexDenoiseFootprints {
     size_t width, pixels;
     int radius; /* of the window */
     double spp;
@@ -46,7 +46,13 @@ struct RetexDenoiseFootprints {
     RetexFootprintImages *places; /* of all classes */
     int nplaces;
     int *uses; /* by part: the number of footprints, terms and shares that use it */
-};
+} RetexDenoiseFootprints;
+
+int retex_denoise_footprints_open(RetexDenoiseFootprints **footprints, const RetexDenoiser *denoiser, RetexError *err);
+void retex_denoise_footprints_close(RetexDenoiseFootprints **footprints);
+/* Set written[part] = 1 for the parts of the set that the calls of footprints.h write. */
+void retex_denoise_mark_written(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser,
+                                unsigned char *written);
 
 static inline float footprint_luminance(const float *c)
 {

@@ -2,7 +2,7 @@
 #ifndef RETEX_DENOISE_RESULTS_H
 #define RETEX_DENOISE_RESULTS_H
 
-#include "denoise/tile.h"
+#include "denoise/denoiser.h"
 
 #define NEIGHBOUR_STEP 3  /* footprints are pooled over a grid of pixels of this step, */
 #define NEIGHBOUR_REACH 2 /* so many steps to each side */

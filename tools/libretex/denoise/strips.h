@@ -2,7 +2,7 @@
 #ifndef RETEX_DENOISE_STRIPS_H
 #define RETEX_DENOISE_STRIPS_H
 
-#include "denoise/tile.h"
+#include "denoise/denoiser.h"
 
 /* 1 if the set can be denoised so: it is open, and no part of it is in a band store. */
 int retex_denoise_can_use_strips(const RetexSet *set);

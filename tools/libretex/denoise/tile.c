@@ -10,6 +10,7 @@
 #include "denoise/features.h"
 #include "denoise/fireflies.h"
 #include "denoise/planes_kernel.h"
+#include "denoise/tile.h"
 #include "set/set.h"
 
 #define STRENGTH 0.45f /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */

@@ -2,7 +2,7 @@
 #ifndef RETEX_DENOISE_TOTALS_H
 #define RETEX_DENOISE_TOTALS_H
 
-#include "denoise/tile.h"
+#include "denoise/denoiser.h"
 
 /* 1 if `name` is one of params.denoiser. */
 int retex_denoiser_is_known(const char *name);

@@ -4,54 +4,13 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_H
 #define RETEX_RETEXTURE_POLYNOMIAL_H
 
-#include <retex/combine.h>
-#include <retex/samples.h>
-
-#include "set/rows.h"
-
-/* A term of the set as it counts here. */
-typedef struct RetexPolynomialTerm {
-    int radiance;                         /* part; -1: the term does not count */
-    int nfactors;                         /* without parameters, */
-    RetexFactor factors[RETEX_MAX_FACTORS]; /* see polynomial_finishes.h for kinds that sets do not have */
-    int weighted;                         /* 1: it has parameters, whose product is */
-    float weight[3];
-} RetexPolynomialTerm;
-
-typedef struct RetexPolynomial {
-    const RetexSet *set;
-    const RetexSamples *samples;   /* or NULL */
-    RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
-    RetexKeptSamples *const *kept; /* samples of these textures, by target, or NULL */
-    int cross;
-    int apart;                                 /* 1: one monomial for each term, with all its factors, and no
-                                                 corrections; 2: with corrections; 0: terms are grouped */
-    char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
-    int picture;                               /* 1: part 0 is the result, and there are no terms */
-    int lamps, relit;                          /* 1: the set has terms of lamps; they stand for all others, */
-    int lamp_pictures;                         /* or the lamps' pictures do */
-    RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
-    float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
-    int has_normals;                           /* 1: a target has a normal map */
-    int mapped[RETEX_MAX_TARGETS];             /* by target, the number of finishes that a map tells apart; 0: no map */
-    int shown[RETEX_MAX_TARGETS];              /* of these, the finish that shows where the map is transparent */
-    RetexImage *gates;                         /* see polynomial_finishes.c */
-    RetexPolynomialTerm *terms;                /* by term of the set */
-    RetexImage *reduced;                       /* factors that are smaller than the picture, by slot */
-    struct RetexPolynomialGroup *groups;       /* see polynomial_groups.h */
-    int ngroups;
-} RetexPolynomial;
+#include "retexture/polynomial_terms.h"
 
 /* Open the polynomial with the terms that params select (NULL = defaults). Borrows set, samples and textures. */
 int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
                           RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
                           RetexError *err);
 void retex_polynomial_close(RetexPolynomial *polynomial);
-/* A row of colours that is 0 outside of the span that was filled last. */
-typedef struct RetexRowBuffer {
-    float *values;
-    RetexRowSpan filled;
-} RetexRowBuffer;
 
 /* Terms over one row that differ only in radiance, or in reduced factors: radiance times the product of factors. */
 typedef struct RetexMonomial {

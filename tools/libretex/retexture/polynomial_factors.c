@@ -5,7 +5,6 @@
 
 #include "retexture/kept_samples.h"
 #include "retexture/mixture_kernel.h"
-#include "retexture/polynomial_finishes.h"
 #include "retexture/sample_row.h"
 #include "set/samples.h"
 #include "set/set.h"

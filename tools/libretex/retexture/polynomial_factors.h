@@ -3,7 +3,7 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 
-#include "retexture/polynomial.h"
+#include "retexture/polynomial_terms.h"
 
 /* Whether a term of the set counts, with the parameters as they are. weight: their product; 1 where it has none. */
 int retex_polynomial_has_term(const RetexPolynomial *polynomial, const RetexTerm *term, const float weight[3]);

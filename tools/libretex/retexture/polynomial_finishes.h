@@ -5,18 +5,7 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
 #define RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
 
-#include "retexture/polynomial.h"
-
-/* A factor of a target whose index it has. */
-#define POLYNOMIAL_GATE ((RetexFactorKind)RETEX_FACTOR_KINDS)
-/* The colour times the weight of finish k; of a gate, the weight. */
-#define POLYNOMIAL_FINISHED(k) ((RetexQuantity)(RETEX_QUANTITIES + (k)))
-
-/* The finish of a quantity, or -1. */
-static inline int retex_quantity_finish(RetexQuantity quantity)
-{
-    return (int)quantity - RETEX_QUANTITIES;
-}
+#include "retexture/polynomial_terms.h"
 
 /* Find the targets that have a map, and the finishes that show where it is transparent. Parameters must be known. */
 int retex_polynomial_find_maps(RetexPolynomial *polynomial, RetexError *err);

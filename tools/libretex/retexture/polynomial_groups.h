@@ -6,7 +6,7 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_GROUPS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_GROUPS_H
 
-#include "retexture/polynomial.h"
+#include "retexture/polynomial_terms.h"
 
 /* A part, and what the parameters of its term multiply it by. */
 typedef struct RetexWeightedRadiance {

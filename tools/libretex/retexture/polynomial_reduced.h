@@ -3,7 +3,7 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_REDUCED_H
 #define RETEX_RETEXTURE_POLYNOMIAL_REDUCED_H
 
-#include "retexture/polynomial.h"
+#include "retexture/polynomial_terms.h"
 
 /* Compute the images that are allocated. */
 int retex_polynomial_reduced_make(RetexPolynomial *polynomial, int nthreads, RetexError *err);

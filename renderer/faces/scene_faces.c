@@ -1,6 +1,6 @@
 /* See scene_faces.h. */
 #include <stdlib.h>
-#include "render/scene_faces.h"
+#include "faces/scene_faces.h"
 
 int scene_faces_open(SceneFaces *faces, const Scene *scene)
 {

@@ -1,6 +1,6 @@
 /* What is seen at a pixel, and the selectors that take it, by scope (scene/selector.h). */
-#ifndef RENDERER_RENDER_SHOWN_H
-#define RENDERER_RENDER_SHOWN_H
+#ifndef RENDERER_FACES_SHOWN_H
+#define RENDERER_FACES_SHOWN_H
 
 #include "scene/selector.h"
 #include "shape/surface.h"

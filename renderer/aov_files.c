@@ -1,4 +1,4 @@
-/* AOVs as image files. See aov_files.h. */
+/* AOVs as image files. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include <retex/host/aov.h>
 #include <retex/image_file.h>
 #include "base/vec.h"
-#include "render/aov_files.h"
+#include "retex-render.h"
 #include "path/sampler.h"
 
 typedef void (*Encode)(RetexImage *image);

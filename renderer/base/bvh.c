@@ -1,5 +1,5 @@
 /* A tree of boxes. Nodes are split in the middle of where their items are, along the longest side. */
-#include "shape/bvh.h"
+#include "base/bvh.h"
 
 enum {
     LEAF = 2,

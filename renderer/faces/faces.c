@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/digest.h"
-#include "shape/faces.h"
+#include "faces/faces.h"
 #include "shape/shape.h"
 
 enum { EDGE_FACES_MAX = 64 }; /* that are compared at one edge; where more meet, it is no surface */

@@ -1,7 +1,7 @@
 /* Marks the faces that targets select by themselves; see faces.h. */
 #include <stdlib.h>
 #include <string.h>
-#include "shape/faces.h"
+#include "faces/faces.h"
 #include "shape/shape.h"
 
 /* Of the scene's primitives: tables of their faces, while these are marked. */

@@ -1,10 +1,10 @@
 /* A tree of boxes, for everything that looks for items along a ray or at a point in double: operands of CSG, faces of
  * meshes. It lives in an arena. */
-#ifndef RENDERER_SHAPE_BVH_H
-#define RENDERER_SHAPE_BVH_H
+#ifndef RENDERER_BASE_BVH_H
+#define RENDERER_BASE_BVH_H
 
 #include "base/arena.h"
-#include "shape/surface.h"
+#include "base/vec.h"
 
 /* Both ends belong to it; empty where low is above high. */
 typedef struct Bounds {

@@ -1,8 +1,8 @@
-/* What is asked again and again about the faces of primitives (shape/faces.h), found once for each. */
-#ifndef RENDERER_RENDER_SCENE_FACES_H
-#define RENDERER_RENDER_SCENE_FACES_H
+/* What is asked again and again about the faces of primitives (faces/faces.h), found once for each. */
+#ifndef RENDERER_FACES_SCENE_FACES_H
+#define RENDERER_FACES_SCENE_FACES_H
 
-#include "shape/faces.h"
+#include "faces/faces.h"
 
 typedef struct SceneFaces {
     const Scene *scene;

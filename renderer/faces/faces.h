@@ -9,8 +9,8 @@
  *   face that was pointed at, within a tolerance: a hundredth of the diagonal of that object's bounds, but no more than
  *   a two-hundredth of that of the scene's. Surfaces that are not closed have no inside: both of their normals count.
  *   Of what has copies, faces count that are level in all of them. */
-#ifndef RENDERER_SHAPE_FACES_H
-#define RENDERER_SHAPE_FACES_H
+#ifndef RENDERER_FACES_FACES_H
+#define RENDERER_FACES_FACES_H
 
 #include "shape/surface.h"
 

@@ -1,6 +1,6 @@
 /* See shown.h. */
-#include "render/shown.h"
-#include "shape/faces.h"
+#include "faces/shown.h"
+#include "faces/faces.h"
 
 int shown_selector(char text[SELECTOR_MAX], const ShownSurface *shown, SelectorScope scope, const Materials *materials,
                    const int *flat)
