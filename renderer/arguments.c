@@ -1,5 +1,5 @@
 /* The command line of retex-render: its options, and which of them cannot be combined. */
-#include <ctype.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,194 +12,101 @@
 #include "camera/view.h"
 #include "render/mattes.h"
 
-enum {
-    OPT_TARGET,
-    OPT_LIST,
-    OPT_LAMP,
-    OPT_LAMPS,
-    OPT_LIST_LAMPS,
-    OPT_LIGHT_SHARE,
-    OPT_FINISH,
-    OPT_SHOW,
-    OPT_LIST_FINISHES,
-    OPT_LIGHT,
-    OPT_SOLO,
-    OPT_REPLACE,
-    OPT_PRESET,
-    OPT_VARIANTS,
-    OPT_CONTROL,
-    OPT_CONTROL_MODE,
-    OPT_CONTROL_DATA,
-    OPT_PLAIN,
-    OPT_LAYOUT,
-    OPT_CLUSTERS,
-    OPT_ORDERS,
-    OPT_STRICT_PAPER,
-    OPT_DENOISE,
-    OPT_NO_DENOISE_DATA,
-    OPT_FULL_PRECISION,
-    OPT_CAUSTICS,
-    OPT_NO_CAUSTICS,
-    OPT_CAUSTICS_GUIDE,
-    OPT_SPP,
-    OPT_NOISE,
-    OPT_SIZE,
-    OPT_UNIT,
-    OPT_SEED,
-    OPT_DEPTH,
-    OPT_CROP,
-    OPT_CAMERA,
-    OPT_FILTER,
-    OPT_AOV,
-    OPT_AOV_DIR,
-    OPT_MATTES,
-    OPT_MATTE_RANKS,
-    OPT_INCLUDE,
-    OPT_DECLARE,
-    OPT_AMBIENT,
-    OPT_NO_AMBIENT,
-    OPT_LENIENT,
-    OPT_STRICT,
-    OPT_RESUME,
-    OPT_SHARD,
-    OPT_MERGE,
-    OPT_STATS,
-    OPT_TRACE,
-    OPT_LIVE,
-    OPT_STEPS,
-    OPT_FRAMES,
-    OPT_PROGRESS
-};
-
 static const CliOption options[] = {
-    [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]",
-                    "make everything #declared as IDENT (or NAME), or with the texture that pixel @X:Y shows, the "
-                    "target NAME; repeatable",
-                    0},
-    [OPT_LIST] = {"list-targets", 0, "=FILE",
-                  "print the identifiers that can be targets, with their share of the picture, and stop; with -v also "
-                  "objects, materials, colours and images; FILE gets a picture with the numbers of objects",
-                  0},
-    [OPT_LAMP] = {"lamp", 'l', "NAME[=IDENT,…]",
-                  "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light "
-                  "source, what emits, as of --target, light_source#N or sky; repeatable",
-                  0},
-    [OPT_LAMPS] = {"lamps", 0, "each", "the same of each light that has a name, each light source, and the sky", 0},
-    [OPT_LIST_LAMPS] = {"list-lamps", 0, NULL,
-                        "print the lamps that there are, or those of -l, with their share of the picture's light, and "
-                        "stop",
-                        0},
-    [OPT_LIGHT_SHARE] = {"light-share", 0, "X",
-                         "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0},
-    [OPT_FINISH] = {"finish", 0, "TARGET=NAME,…",
-                    "keep the light of a target's finishes apart, to choose from later: those that the scene declares, "
-                    "matt, satin, polished, metal, original; up to 4, the first one is in the picture; repeatable",
-                    0},
-    [OPT_SHOW] = {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0},
-    [OPT_LIST_FINISHES] = {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0},
-    [OPT_LIGHT] = {"light", 0, "NAME=VALUE",
-                   "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
-                   "retex-combine; repeatable",
-                   0},
-    [OPT_SOLO] = {"solo", 0, "NAME", "turn off all lamps but NAME and those of --light", 0},
-    [OPT_REPLACE] =
-        {"replace", 0, "NAME=IMAGE",
-         "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
-    [OPT_PRESET] = {"preset", 0, "FILE", "the same with a preset's textures, as of retex-combine; options go first", 0},
-    [OPT_VARIANTS] = {"variants", 0, "FILE.csv",
-                      "render one --replace picture per row of a table, as retex-combine --batch; up to 16 share paths",
-                      0},
-    [OPT_CONTROL] = {"control", 0, "SET",
-                     "with --replace: reduce noise by control variates from SET, a set of the same view", 0},
-    [OPT_CONTROL_MODE] = {"control-mode", 0, "unbiased|halves|biased", "kind of control variates; default unbiased", 0},
-    [OPT_CONTROL_DATA] = {"control-data", 0, "biased|unbiased",
-                          "add variances, as the paper's control variates need them", 0},
-    [OPT_PLAIN] = {"plain", 0, NULL, "render the picture only, no set", 0},
-    [OPT_LAYOUT] = {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0},
-    [OPT_CLUSTERS] = {"clusters", 0, "K|S+B|S+B+X",
-                      "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more "
-                      "sharp ones in mirrors and through glass; default 4+2+8",
-                      0},
-    [OPT_ORDERS] = {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
-    [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL,
-                          "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0},
-    [OPT_DENOISE] = {"denoise", 0, "=preview|final", "denoise the result, as retex-denoise does", 0},
-    [OPT_CAUSTICS] = {"caustics", 0, NULL,
-                      "light sources throw caustics, as small lamps, through all glass and by all mirrors", 0},
-    [OPT_NO_CAUSTICS] = {"no-caustics", 0, NULL,
-                         "light sources throw no caustics; default: as the scene asks by `photons`", 0},
-    [OPT_CAUSTICS_GUIDE] = {"caustics-guide", 0, NULL, "guide paths by photons, for caustics of small lamps", 0},
-    [OPT_NO_DENOISE_DATA] = {"no-denoise-data", 0, NULL, "omit the parts of the set that retex-denoise needs", 0},
-    [OPT_FULL_PRECISION] = {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
-    [OPT_SPP] = {"spp", 0, "N", "samples per pixel; default 64", 0},
-    [OPT_NOISE] = {"noise", 0, "X",
-                   "adaptive sampling: as many samples, up to --spp, as keep the noise of each tile at most X", 0},
-    [OPT_SIZE] = {"size", 0, "WxH", "size of the picture; default 640 wide with the scene's aspect ratio", 0},
-    [OPT_UNIT] = {"unit", 0, "LENGTH",
-                  "what a scene unit is, for lengths of textures as in width=60cm: cm, 2.5cm, ft; default 1 m", 0},
-    [OPT_SEED] = {"seed", 0, "N", "seed of the random numbers; default 0", 0},
-    [OPT_DEPTH] = {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0},
-    [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0},
-    [OPT_CAMERA] = {"camera", 0, "NAME|X,Y,Z:X,Y,Z[:ANGLE]",
-                    "another camera: one that the scene declares, or where it is, what it looks at, and the horizontal "
-                    "angle of view",
-                    0},
-    [OPT_FILTER] = {"filter", 0, "box|gaussian", "pixel filter; default box", 0},
-    [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
-    [OPT_AOV_DIR] = {"aov-dir", 0, "DIR",
-                     "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0},
-    [OPT_MATTES] = {"mattes", 0, "FILE.exr",
-                    "also write a file for compositors: the picture, masks of targets, Cryptomatte", 0},
-    [OPT_MATTE_RANKS] = {"matte-ranks", 0, "N", "names that Cryptomatte has in a pixel, 1 to 32; default 6", 0},
-    [OPT_INCLUDE] = {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0},
-    [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE",
-                     "before the scene is read, declare a number or a quoted string, or set clock, frame_number, "
-                     "initial_frame or final_frame; repeatable",
-                     0},
-    [OPT_AMBIENT] = {"ambient", 0, NULL, "treat `ambient` of all finishes as emission", 0},
-    [OPT_NO_AMBIENT] = {"no-ambient", 0, NULL,
-                        "treat no `ambient` as emission; default: strong `ambient`, in scenes without radiosity", 0},
-    [OPT_LENIENT] = {"lenient", 0, NULL, "render scenes with unsupported shapes or cameras, without them", 0},
-    [OPT_STRICT] = {"strict", 0, NULL, "treat unsupported features of the scene as errors", 0},
-    [OPT_RESUME] = {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and continue from that file if it exists",
-                    0},
-    [OPT_SHARD] = {"shard", 0, "I/N", "render only every N-th band of rows, from the I-th, for --merge", 0},
-    [OPT_MERGE] = {"merge", 0, "FILE", "join the rows of all shards of this render; repeatable", 0},
-    [OPT_STATS] = {"stats", 0, "FILE.json",
-                   "write times, numbers of rays and paths, and memory use; - is standard output", 0},
-    [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0},
-    [OPT_LIVE] = {"live", 0, NULL,
-                  "keep the scene open and answer requests for pictures of it, lines on standard input: see the manual",
-                  0},
-    [OPT_STEPS] = {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS",
-                   0},
-    [OPT_FRAMES] = FRAMES_OPTION(Arguments, frames),
-    [OPT_PROGRESS] = CLI_PROGRESS_OPTION,
+    {"target", 't', "NAME[=IDENT,…]",
+     "make everything #declared as IDENT (or NAME), or with the texture that pixel @X:Y shows, the target NAME; "
+     "repeatable",
+     0},
+    {"list-targets", 0, "=FILE",
+     "print the identifiers that can be targets, with their share of the picture, and stop; with -v also objects, "
+     "materials, colours and images; FILE gets a picture with the numbers of objects",
+     0},
+    {"lamp", 'l', "NAME[=IDENT,…]",
+     "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light source, what "
+     "emits, as of --target, light_source#N or sky; repeatable",
+     0},
+    {"lamps", 0, "each", "the same of each light that has a name, each light source, and the sky", 0},
+    {"list-lamps", 0, NULL,
+     "print the lamps that there are, or those of -l, with their share of the picture's light, and stop", 0},
+    {"light-share", 0, "X", "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0},
+    {"finish", 0, "TARGET=NAME,…",
+     "keep the light of a target's finishes apart, to choose from later: those that the scene declares, matt, satin, "
+     "polished, metal, original; up to 4, the first one is in the picture; repeatable",
+     0},
+    {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0},
+    {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0},
+    {"light", 0, "NAME=VALUE",
+     "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
+     "retex-combine; repeatable",
+     0},
+    {"solo", 0, "NAME", "turn off all lamps but NAME and those of --light", 0},
+    {"replace", 0, "NAME=IMAGE",
+     "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
+    {"preset", 0, "FILE", "the same with a preset's textures, as of retex-combine; options go first", 0},
+    {"variants", 0, "FILE.csv",
+     "render one --replace picture per row of a table, as retex-combine --batch; up to 16 share paths", 0},
+    {"control", 0, "SET", "with --replace: reduce noise by control variates from SET, a set of the same view", 0},
+    {"control-mode", 0, "unbiased|halves|biased", "kind of control variates; default unbiased", 0},
+    {"control-data", 0, "biased|unbiased", "add variances, as the paper's control variates need them", 0},
+    {"plain", 0, NULL, "render the picture only, no set", 0},
+    {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0},
+    {"clusters", 0, "K|S+B|S+B+X",
+     "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more sharp ones in "
+     "mirrors and through glass; default 4+2+8",
+     0},
+    {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
+    {"strict-paper", 0, NULL, "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0},
+    {"denoise", 0, "=preview|final", "denoise the result, as retex-denoise does", 0},
+    {"no-denoise-data", 0, NULL, "omit the parts of the set that retex-denoise needs", 0},
+    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
+    {"caustics", 0, NULL, "light sources throw caustics, as small lamps, through all glass and by all mirrors", 0},
+    {"no-caustics", 0, NULL, "light sources throw no caustics; default: as the scene asks by `photons`", 0},
+    {"caustics-guide", 0, NULL, "guide paths by photons, for caustics of small lamps", 0},
+    {"spp", 0, "N", "samples per pixel; default 64", 0},
+    {"noise", 0, "X", "adaptive sampling: as many samples, up to --spp, as keep the noise of each tile at most X", 0},
+    {"size", 0, "WxH", "size of the picture; default 640 wide with the scene's aspect ratio", 0},
+    {"unit", 0, "LENGTH", "what a scene unit is, for lengths of textures as in width=60cm: cm, 2.5cm, ft; default 1 m",
+     0},
+    {"seed", 0, "N", "seed of the random numbers; default 0", 0},
+    {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0},
+    {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0},
+    {"camera", 0, "NAME|X,Y,Z:X,Y,Z[:ANGLE]",
+     "another camera: one that the scene declares, or where it is, what it looks at, and the horizontal angle of view",
+     0},
+    {"filter", 0, "box|gaussian", "pixel filter; default box", 0},
+    {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
+    {"aov-dir", 0, "DIR", "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0},
+    {"mattes", 0, "FILE.exr", "also write a file for compositors: the picture, masks of targets, Cryptomatte", 0},
+    {"matte-ranks", 0, "N", "names that Cryptomatte has in a pixel, 1 to 32; default 6", 0},
+    {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0},
+    {"declare", 'D', "NAME=VALUE",
+     "before the scene is read, declare a number or a quoted string, or set clock, frame_number, initial_frame or "
+     "final_frame; repeatable",
+     0},
+    {"ambient", 0, NULL, "treat `ambient` of all finishes as emission", 0},
+    {"no-ambient", 0, NULL, "treat no `ambient` as emission; default: strong `ambient`, in scenes without radiosity",
+     0},
+    {"lenient", 0, NULL, "render scenes with unsupported shapes or cameras, without them", 0},
+    {"strict", 0, NULL, "treat unsupported features of the scene as errors", 0},
+    {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and continue from that file if it exists", 0},
+    {"shard", 0, "I/N", "render only every N-th band of rows, from the I-th, for --merge", 0},
+    {"merge", 0, "FILE", "join the rows of all shards of this render; repeatable", 0},
+    {"stats", 0, "FILE.json", "write times, numbers of rays and paths, and memory use; - is standard output", 0},
+    {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0},
+    {"live", 0, NULL,
+     "keep the scene open and answer requests for pictures of it, lines on standard input: see the manual", 0},
+    {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS", 0},
+    FRAMES_OPTION(Arguments, frames),
+    CLI_PROGRESS_OPTION,
     BATCH_OPTIONS(Arguments, batch),
     {0},
 };
-
-static void push(Cli *cli, const char **list, int *count, const char *what)
-{
-    if (*count == LIST_MAX)
-        cli_die(cli, "more than %d of --%s", LIST_MAX, what);
-    list[(*count)++] = cli->value;
-}
 
 /* Parse `count` whole numbers between separators. Any further text is an error. */
 static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
 {
     if (!job_numbers(cli->value, separator, count, out))
         cli_die(cli, "--%s: expected %s, not `%s`", option->name, option->argument, cli->value);
-}
-
-static void parse_replace(Arguments *a)
-{
-    RetexError err;
-    if (a->nreplacements == RETEX_MAX_TARGETS)
-        cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
-    if (texture_args_parse(a->cli, a->replacements, &a->nreplacements, &err))
-        cli_die(a->cli, "--replace: %s", err.message);
 }
 
 /* The textures of a preset for targets without --replace. */
@@ -224,132 +131,150 @@ static int choose(const Cli *cli, const CliOption *o, int count, const char *con
             retex_meant(retex_nearest_of(cli->value, names, count), meant));
 }
 
-static void parse_option(Arguments *a, const CliOption *o)
+/* ---- options whose values are checked at once ---- */
+
+static void take_lamps(Arguments *a, const CliOption *o)
 {
-    Cli *cli = a->cli;
-    RenderParams *r = &a->render;
+    choose(a->cli, o, 1, (const char *const[]){"each"});
+}
+
+static void take_replace(Arguments *a, const CliOption *o)
+{
+    RetexError err;
+    if (a->nreplacements == RETEX_MAX_TARGETS)
+        cli_die(a->cli, "more than %d of --%s", RETEX_MAX_TARGETS, o->name);
+    if (texture_args_parse(a->cli, a->replacements, &a->nreplacements, &err))
+        cli_die(a->cli, "--%s: %s", o->name, err.message);
+}
+
+static void take_control_mode(Arguments *a, const CliOption *o)
+{
+    a->control_mode = (ControlMode)choose(a->cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
+}
+
+static void take_control_data(Arguments *a, const CliOption *o)
+{
+    a->render.control_data = 1 + choose(a->cli, o, 2, (const char *const[]){"biased", "unbiased"});
+}
+
+static void take_matte_ranks(Arguments *a, const CliOption *o)
+{
+    numbers(a->cli, o, 0, 1, &a->matte_ranks);
+    if (a->matte_ranks < 1 || a->matte_ranks > MATTE_RANKS_MAX)
+        cli_die(a->cli, "--matte-ranks: expected 1 to %d, not `%s`", MATTE_RANKS_MAX, a->cli->value);
+}
+
+static void take_declare(Arguments *a, const CliOption *o)
+{
+    RetexError err;
+    if (job_check_declare(a->cli->value, &err))
+        cli_die(a->cli, "--%s: %s", o->name, err.message);
+}
+
+static void take_camera(Arguments *a, const CliOption *o)
+{
     RetexError err;
     CameraView view;
-    int size[2];
-    if (cli_take(cli, o, a))
+    if (camera_view_read(&view, a->cli->value, &err) == RETEX_EINVAL)
+        cli_die(a->cli, "--%s: %s", o->name, err.message);
+}
+
+static void take_shard(Arguments *a, const CliOption *o)
+{
+    RenderParams *r = &a->render;
+    int part[2];
+    numbers(a->cli, o, '/', 2, part);
+    r->shard = part[0], r->nshards = part[1];
+    if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
+        cli_die(a->cli, "--shard: expected I/N, I from 1 to N, not `%s`", a->cli->value);
+}
+
+static void take_trace(Arguments *a, const CliOption *o)
+{
+    numbers(a->cli, o, ',', 3, a->trace);
+}
+
+static void take_steps(Arguments *a, const CliOption *o)
+{
+    cli_limit(a->cli, o);
+}
+
+/* Of the render itself: as names that OpenImageIO opens have them. */
+static void take_render_option(Arguments *a, const CliOption *o)
+{
+    RetexError err;
+    if (job_set_option(&a->render, &a->sdl, o->name, o->argument ? a->cli->value : NULL, &err))
+        cli_die(a->cli, "--%s", err.message);
+}
+
+/* What an option does: `take` looks at its value, a flag becomes 1, the value is kept as text, or added to a list.
+ * Fields are offsets in Arguments; 0: there is none. */
+typedef struct Effect {
+    const char *name;
+    void (*take)(Arguments *a, const CliOption *o);
+    size_t flag, text, list, count;
+} Effect;
+
+#define AT(field) offsetof(Arguments, field)
+#define LIST(field) .list = AT(field), .count = AT(n##field)
+
+/* Those of this tool; all others are of the render. */
+static const Effect effects[] = {
+    {"target", .flag = AT(named), LIST(targets)},
+    {"list-targets", .flag = AT(list), .text = AT(sheet)},
+    {"lamp", LIST(lamps)},
+    {"lamps", .take = take_lamps, .flag = AT(each_lamp)},
+    {"list-lamps", .flag = AT(list_lamps)},
+    {"finish", LIST(finishes)},
+    {"show", LIST(shown)},
+    {"list-finishes", .flag = AT(list_finishes)},
+    {"light", LIST(lights)},
+    {"solo", .text = AT(solo)},
+    {"replace", .take = take_replace},
+    {"preset", .text = AT(preset)},
+    {"variants", .text = AT(variants)},
+    {"control", .text = AT(control)},
+    {"control-mode", .take = take_control_mode},
+    {"control-data", .take = take_control_data},
+    {"denoise", .flag = AT(denoise), .text = AT(denoise_quality)},
+    {"no-denoise-data", .flag = AT(no_denoise_data)},
+    {"full-precision", .flag = AT(full_precision)},
+    {"aov-dir", .text = AT(aov_dir)},
+    {"mattes", .text = AT(mattes)},
+    {"matte-ranks", .take = take_matte_ranks},
+    {"include", LIST(includes)},
+    {"declare", .take = take_declare, LIST(declares)},
+    {"camera", .take = take_camera, .text = AT(sdl.camera)},
+    {"live", .flag = AT(live)},
+    {"resume", .flag = AT(render.resume)},
+    {"shard", .take = take_shard, .flag = AT(render.resume)},
+    {"merge", LIST(merged)},
+    {"stats", .text = AT(stats)},
+    {"trace-pixel", .take = take_trace, .flag = AT(tracing)},
+    {"max-steps", .take = take_steps},
+    {"seed", .take = take_render_option, .flag = AT(seeded)},
+};
+
+static void parse_option(Arguments *a, const CliOption *o)
+{
+    static const Effect of_render = {.take = take_render_option};
+    const Effect *effect = &of_render;
+    char *fields = (char *)a;
+    if (cli_take(a->cli, o, a))
         return;
-    switch (o - options) {
-    case OPT_TARGET:
-        push(cli, a->targets, &a->ntargets, o->name);
-        a->named = 1;
-        break;
-    case OPT_LIST:
-        a->list = 1;
-        a->sheet = cli->value;
-        break;
-    case OPT_LAMP:
-        push(cli, a->lamps, &a->nlamps, o->name);
-        break;
-    case OPT_LAMPS:
-        choose(cli, o, 1, (const char *const[]){"each"});
-        a->each_lamp = 1;
-        break;
-    case OPT_LIST_LAMPS:
-        a->list_lamps = 1;
-        break;
-    case OPT_FINISH:
-        push(cli, a->finishes, &a->nfinishes, o->name);
-        break;
-    case OPT_SHOW:
-        push(cli, a->shown, &a->nshown, o->name);
-        break;
-    case OPT_LIST_FINISHES:
-        a->list_finishes = 1;
-        break;
-    case OPT_LIGHT:
-        push(cli, a->lights, &a->nlights, o->name);
-        break;
-    case OPT_SOLO:
-        a->solo = cli->value;
-        break;
-    case OPT_REPLACE:
-        parse_replace(a);
-        break;
-    case OPT_PRESET:
-        a->preset = cli->value;
-        break;
-    case OPT_CONTROL:
-        a->control = cli->value;
-        break;
-    case OPT_CONTROL_MODE:
-        a->control_mode = (ControlMode)choose(cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
-        break;
-    case OPT_CONTROL_DATA:
-        r->control_data = 1 + choose(cli, o, 2, (const char *const[]){"biased", "unbiased"});
-        break;
-    case OPT_VARIANTS:
-        a->variants = cli->value;
-        break;
-    case OPT_DENOISE:
-        a->denoise = 1;
-        a->denoise_quality = cli->value;
-        break;
-    case OPT_NO_DENOISE_DATA:
-        a->no_denoise_data = 1;
-        break;
-    case OPT_FULL_PRECISION:
-        a->full_precision = 1;
-        break;
-    case OPT_AOV_DIR:
-        a->aov_dir = cli->value;
-        break;
-    case OPT_MATTES:
-        a->mattes = cli->value;
-        break;
-    case OPT_MATTE_RANKS:
-        numbers(cli, o, 0, 1, &a->matte_ranks);
-        if (a->matte_ranks < 1 || a->matte_ranks > MATTE_RANKS_MAX)
-            cli_die(cli, "--matte-ranks: expected 1 to %d, not `%s`", MATTE_RANKS_MAX, cli->value);
-        break;
-    case OPT_INCLUDE:
-        push(cli, a->includes, &a->nincludes, o->name);
-        break;
-    case OPT_DECLARE:
-        if (job_check_declare(cli->value, &err))
-            cli_die(cli, "--declare: %s", err.message);
-        push(cli, a->declares, &a->ndeclares, o->name);
-        break;
-    case OPT_CAMERA:
-        if (camera_view_read(&view, cli->value, &err) == RETEX_EINVAL)
-            cli_die(cli, "--camera: %s", err.message);
-        a->sdl.camera = cli->value;
-        break;
-    case OPT_LIVE:
-        a->live = 1;
-        break;
-    case OPT_RESUME:
-        r->resume = 1;
-        break;
-    case OPT_SHARD:
-        numbers(cli, o, '/', 2, size);
-        r->shard = size[0], r->nshards = size[1];
-        r->resume = 1;
-        if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
-            cli_die(cli, "--shard: expected I/N, I from 1 to N, not `%s`", cli->value);
-        break;
-    case OPT_MERGE:
-        push(cli, a->merged, &a->nmerged, o->name);
-        break;
-    case OPT_STATS:
-        a->stats = cli->value;
-        break;
-    case OPT_STEPS:
-        cli_limit(cli, o);
-        break;
-    case OPT_TRACE:
-        numbers(cli, o, ',', 3, a->trace);
-        a->tracing = 1;
-        break;
-    default:
-        a->seeded |= o == &options[OPT_SEED];
-        if (job_set_option(r, &a->sdl, o->name, o->argument ? cli->value : NULL, &err))
-            cli_die(cli, "--%s", err.message);
-        break;
+    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
+        effect = strcmp(o->name, effects[k].name) ? effect : &effects[k];
+    if (effect->take)
+        effect->take(a, o);
+    if (effect->flag)
+        *(int *)(fields + effect->flag) = 1;
+    if (effect->text)
+        *(const char **)(fields + effect->text) = a->cli->value;
+    if (effect->list) {
+        int *count = (int *)(fields + effect->count);
+        if (*count == LIST_MAX)
+            cli_die(a->cli, "more than %d of --%s", LIST_MAX, o->name);
+        ((const char **)(fields + effect->list))[(*count)++] = a->cli->value;
     }
 }
 
