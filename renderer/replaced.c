@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <retex/nearest.h>
 
 #include "render/first_hit.h"
 #include "retex-render.h"

@@ -9,17 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include "accel/embree.h"
-#include "shade/material.h"
 #include "shade/texture.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
 
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: above it, building takes longer than tracing gains */
-
-static double largest(Vec3 a)
-{
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
-}
 
 /* Of a copy of what is shared: round that one's own box. */
 static int copy_bounds(const Accel *shared, const Transform *transform, Vec3 *low, Vec3 *high)
@@ -65,9 +59,9 @@ static void bound_curved(const struct RTCBoundsFunctionArguments *args)
     item_bounds(accel, accel->curved[args->primID], &low, &high);
     /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. And for that of rays that start
      * elsewhere in the scene, as far as it does not make the bounds larger to speak of. */
-    pad = 2e-6 * (largest(low) + largest(high)) +
-          fmin(1e-6 * fmax(accel->eye, fmax(largest(accel->low), largest(accel->high))),
-               0.01 * largest(vec_sub(high, low)));
+    pad = 2e-6 * (vec_largest(low) + vec_largest(high)) +
+          fmin(1e-6 * fmax(accel->eye, fmax(vec_largest(accel->low), vec_largest(accel->high))),
+               0.01 * vec_largest(vec_sub(high, low)));
     bounds->lower_x = (float)(low.x - pad);
     bounds->lower_y = (float)(low.y - pad);
     bounds->lower_z = (float)(low.z - pad);
@@ -132,13 +126,12 @@ static unsigned char primitive_flags(const Primitive *primitive)
 
 static void extend_bounds(Accel *accel, Vec3 low, Vec3 high)
 {
-    accel->low = vec3(fmin(accel->low.x, low.x), fmin(accel->low.y, low.y), fmin(accel->low.z, low.z));
-    accel->high = vec3(fmax(accel->high.x, high.x), fmax(accel->high.y, high.y), fmax(accel->high.z, high.z));
+    accel->low = vec_min(accel->low, low), accel->high = vec_max(accel->high, high);
 }
 
 static int is_traceable(Vec3 low, Vec3 high)
 {
-    return largest(low) < LARGEST_COORDINATE && largest(high) < LARGEST_COORDINATE;
+    return vec_largest(low) < LARGEST_COORDINATE && vec_largest(high) < LARGEST_COORDINATE;
 }
 
 static int fail_untraceable(const Scene *scene, int line, RetexError *err)
@@ -216,7 +209,7 @@ static int classify_primitives(Accel *accel, RetexError *err)
 
     const Bounds none = bounds_empty();
     accel->low = none.low, accel->high = none.high;
-    accel->eye = accel->parent ? 0 : largest(scene->camera.location); /* no camera is in what has a parent */
+    accel->eye = accel->parent ? 0 : vec_largest(scene->camera.location); /* no camera is in what has a parent */
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *primitive = &scene->primitives[i];
         ShapeTriangles shape = {0, 0, NULL, NULL, 0, 0};
@@ -289,7 +282,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
                 return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
                                      "vertex %d of this object is not finite", k);
             accel->vertices[base + (size_t)k] = p;
-            accel->reach = fmax(accel->reach, largest(p));
+            accel->reach = fmax(accel->reach, vec_largest(p));
         }
         for (int k = 0; k < shape.ntriangles; k++)
             add_triangle(accel, &count, base, shape.corners + (size_t)k * shape.stride, i, k / shape.per_face);

@@ -67,14 +67,9 @@ Bounds bounds_padded(Bounds b)
     return (Bounds){vec_sub(b.low, vec3(pad, pad, pad)), vec_add(b.high, vec3(pad, pad, pad))};
 }
 
-static double along(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 static double middle(const Bounds *b, int axis)
 {
-    return 0.5 * along(b->low, axis) + 0.5 * along(b->high, axis);
+    return 0.5 * vec_component(b->low, axis) + 0.5 * vec_component(b->high, axis);
 }
 
 /* ---- building ---- */
@@ -101,7 +96,7 @@ static int partition(Bvh *bvh, int first, int count)
     }
     size = vec_sub(range.high, range.low);
     for (int k = 1; k < 3; k++)
-        if (along(size, k) > along(size, axis))
+        if (vec_component(size, k) > vec_component(size, axis))
             axis = k;
     const double split = middle(&range, axis);
     for (int i = first; i < first + count; i++)

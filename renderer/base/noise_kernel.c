@@ -250,11 +250,6 @@ static double perlin_noise(Vec3 p)
 
 /* ---- the calls ---- */
 
-static inline int is_finite(Vec3 p)
-{
-    return (p.x + p.y + p.z) * 0 == 0; /* a sum beyond the range of doubles is none for noise either */
-}
-
 double noise_value(Vec3 p, int generator)
 {
     double value;
@@ -271,7 +266,7 @@ double noise_value(Vec3 p, int generator)
 Vec3 noise_vector(Vec3 p)
 {
     Vec3 noise;
-    if (!is_finite(p))
+    if (!vec_is_finite(p))
         return vec3(0, 0, 0);
     need_tables();
     lattice_vector_by_level[level](p.x, p.y, p.z, &noise);

@@ -14,6 +14,15 @@ enum { POLYNOMIAL_DEGREE = 35 }; /* the highest */
 /* The value at x, and the slope there. */
 typedef double RootFunction(const void *data, double x, double *slope);
 
+/* Catmull and Rom's cubic through four values, by how far the point is from the second. */
+static inline void cubic_weights(double t, double weights[4])
+{
+    weights[0] = t * (-0.5 + t * (1 - 0.5 * t));
+    weights[1] = 1 + t * t * (-2.5 + 1.5 * t);
+    weights[2] = t * (0.5 + t * (2 - 1.5 * t));
+    weights[3] = t * t * (-0.5 + 0.5 * t);
+}
+
 double polynomial_value(const double *c, int degree, double x);
 
 /* The root between low and high, where f has opposite signs; rising: it is positive at high. Newton's steps, halving

@@ -26,7 +26,20 @@ static inline Vec3 vec_cross(Vec3 a, Vec3 b)
 {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
+static inline double vec_component(Vec3 a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
+static inline Vec3 vec_min(Vec3 a, Vec3 b) { return vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)); }
+static inline Vec3 vec_max(Vec3 a, Vec3 b) { return vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)); }
+static inline double vec_largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline int vec_is_finite(Vec3 a) { return (a.x + a.y + a.z) * 0 == 0; }
 static inline double vec_length(Vec3 a) { return sqrt(vec_dot(a, a)); }
+/* A point seen along the axis that is nearest to a direction. */
+static inline Vec2 vec_project(Vec3 p, Vec3 along)
+{
+    const Vec3 size = vec3(fabs(along.x), fabs(along.y), fabs(along.z));
+    if (size.x > size.y && size.x > size.z)
+        return (Vec2){p.z, p.y};
+    return size.y > size.z ? (Vec2){p.x, p.z} : (Vec2){p.x, p.y};
+}
 /* The zero vector stays zero. */
 static inline Vec3 vec_normalize(Vec3 a)
 {

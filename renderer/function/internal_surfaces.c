@@ -35,43 +35,34 @@ static Plane plane_of(const double *p, const double *revolve /* switch, offset, 
     const double x MAY_BE_UNUSED = p[0], y MAY_BE_UNUSED = p[1], z MAY_BE_UNUSED = p[2];                               \
     const double x2 MAY_BE_UNUSED = x * x, y2 MAY_BE_UNUSED = y * y, z2 MAY_BE_UNUSED = z * z
 
+/* A function that is one expression: of the revolved curve whose switch is parameter `at`; or of x, y and z. */
+#define CURVE(name, at, value)                                                                                         \
+    double internal_##name(const double *p)                                                                            \
+    {                                                                                                                  \
+        const Plane q = plane_of(p, p + at);                                                                           \
+        return value;                                                                                                  \
+    }
+#define SURFACE(name, value)                                                                                           \
+    double internal_##name(const double *p)                                                                            \
+    {                                                                                                                  \
+        SQUARES;                                                                                                       \
+        return field(p, value);                                                                                        \
+    }
+
 /* ---- curves, which may be revolved ---- */
 
-double internal_algbr_cyl1(const double *p)
-{
-    const Plane q = plane_of(p, p + 5);
-    return -limited(p[3], -(q.x2 * fabs(q.x) - q.x2 + q.y2), p[4]);
-}
-
-double internal_algbr_cyl2(const double *p)
-{
-    const Plane q = plane_of(p, p + 5);
-    return limited(p[3], -(2 * q.x2 * q.x2 - 3 * q.x2 * q.y + q.y2 - 2 * q.y2 * q.y + q.y2 * q.y2), p[4]);
-}
-
-double internal_algbr_cyl3(const double *p)
-{
-    const Plane q = plane_of(p, p + 5);
-    return limited(p[3], -(q.x2 * q.x2 + q.x2 * q.y2 - 2 * q.x2 * q.y - q.x * q.y2 + q.y2), p[4]);
-}
+CURVE(algbr_cyl1, 5, -limited(p[3], -(q.x2 * fabs(q.x) - q.x2 + q.y2), p[4]))
+CURVE(algbr_cyl2, 5, limited(p[3], -(2 * q.x2 * q.x2 - 3 * q.x2 * q.y + q.y2 - 2 * q.y2 * q.y + q.y2 * q.y2), p[4]))
+CURVE(algbr_cyl3, 5, limited(p[3], -(q.x2 * q.x2 + q.x2 * q.y2 - 2 * q.x2 * q.y - q.x * q.y2 + q.y2), p[4]))
+CURVE(devils_curve_2d, 6, field(p, -(q.x2 * (q.x2 - p[4] * p[4]) - q.y2 * (q.y2 - p[5] * p[5]))))
+CURVE(folium_surface_2d, 6, field(p, -(q.y2 * (1 + (p[5] - 4 * p[4]) * q.x) + q.x2 * (1 + p[5]))))
+CURVE(witch_of_agnesi_2d, 6, field(p, -(p[4] * p[4] * q.y + q.x2 * q.y - p[5])))
 
 double internal_algbr_cyl4(const double *p)
 {
     const Plane q = plane_of(p, p + 5);
     const double r2 = q.x2 + q.y2;
     return limited(p[3], -(r2 * r2 + 3 * q.x2 * q.y - q.y2 * q.y), p[4]);
-}
-
-double internal_devils_curve_2d(const double *p)
-{
-    const Plane q = plane_of(p, p + 6);
-    return field(p, -(q.x2 * (q.x2 - p[4] * p[4]) - q.y2 * (q.y2 - p[5] * p[5])));
-}
-
-double internal_folium_surface_2d(const double *p)
-{
-    const Plane q = plane_of(p, p + 6);
-    return field(p, -(q.y2 * (1 + (p[5] - 4 * p[4]) * q.x) + q.x2 * (1 + p[5])));
 }
 
 double internal_kampyle_of_eudoxus_2d(const double *p)
@@ -102,13 +93,26 @@ double internal_strophoid_2d(const double *p)
     return field(p, -((p[5] - q.x) * q.y2 - c2 * p[4] * q.x2 - c2 * q.x2 * q.x));
 }
 
-double internal_witch_of_agnesi_2d(const double *p)
-{
-    const Plane q = plane_of(p, p + 6);
-    return field(p, -(p[4] * p[4] * q.y + q.x2 * q.y - p[5]));
-}
-
 /* ---- surfaces ---- */
+
+SURFACE(crossed_trough, x2 * z2 - y)
+SURFACE(cubic_saddle, z + y2 * y - x2 * x)
+SURFACE(devils_curve, -(x2 * x2 + 2 * x2 * z2 - 0.36 * x2 - y2 * y2 + 0.25 * y2 + z2 * z2))
+SURFACE(folium_surface, (y2 + z2) * (1 + (p[5] - 4 * p[4]) * x) + x2 * (1 + p[5]))
+SURFACE(glob, 0.5 * x2 * x2 * x + 0.5 * x2 * x2 - (y2 + z2))
+SURFACE(kummer_surface_v1, -(x2 * x2 + y2 * y2 + z2 * z2 - x2 - y2 - z2 - x2 * y2 - x2 * z2 - y2 * z2 + 1))
+SURFACE(kummer_surface_v2, -(x2 * x2 + y2 * y2 + z2 * z2 + p[4] * (x2 + y2 + z2) + p[5] * (x2 * y2 + x2 * z2 + y2 * z2)
+        + p[6] * x * y * z - 1))
+SURFACE(lemniscate_of_gerono, -(x2 * x2 - x2 + y2 + z2))
+SURFACE(mitre, y2 * (1 - y2 - z2) - 4 * x2 * (x2 + y2 + z2))
+SURFACE(nodal_cubic, 6 * y * z - y2 * y - z2 * z)
+SURFACE(paraboloid, y - x2 - z2)
+SURFACE(pillow, x2 * x2 + y2 * y2 + z2 * z2 - (x2 + y2 + z2))
+SURFACE(quartic_paraboloid, y - x2 * x2 - z2 * z2)
+SURFACE(quartic_saddle, y + z2 * z2 - x2 * x2)
+SURFACE(steiners_roman, -(x2 * y2 + x2 * z2 + y2 * z2 + x * y * z))
+SURFACE(umbrella, y * z2 - x2)
+SURFACE(witch_of_agnesi, -(p[4] * (y - 1) + (x2 + z2) * y))
 
 double internal_bicorn(const double *p)
 {
@@ -136,18 +140,6 @@ double internal_boy_surface(const double *p)
     return field(p, p[4] * (cubic + quadratic + linear + rest));
 }
 
-double internal_crossed_trough(const double *p)
-{
-    SQUARES;
-    return field(p, x2 * z2 - y);
-}
-
-double internal_cubic_saddle(const double *p)
-{
-    SQUARES;
-    return field(p, z + y2 * y - x2 * x);
-}
-
 double internal_cushion(const double *p)
 {
     SQUARES;
@@ -159,12 +151,6 @@ double internal_cushion(const double *p)
 double internal_odd(const double *p)
 {
     return internal_cushion(p);
-}
-
-double internal_devils_curve(const double *p)
-{
-    SQUARES;
-    return field(p, -(x2 * x2 + 2 * x2 * z2 - 0.36 * x2 - y2 * y2 + 0.25 * y2 + z2 * z2));
 }
 
 double internal_dupin_cyclid(const double *p)
@@ -186,18 +172,6 @@ double internal_enneper(const double *p)
     const double depth = fabs(z) < 0.2 ? 0.2 : z;
     const double a = (y2 - x2) / (2 * depth) + 2 * z2 / 9, b = (y2 - x2) / (4 * depth);
     return field(p, 6 * b * b - a * a * a);
-}
-
-double internal_folium_surface(const double *p)
-{
-    SQUARES;
-    return field(p, (y2 + z2) * (1 + (p[5] - 4 * p[4]) * x) + x2 * (1 + p[5]));
-}
-
-double internal_glob(const double *p)
-{
-    SQUARES;
-    return field(p, 0.5 * x2 * x2 * x + 0.5 * x2 * x2 - (y2 + z2));
 }
 
 double internal_heart(const double *p)
@@ -235,48 +209,11 @@ double internal_klein_bottle(const double *p)
     return field(p, -(above * (below * below - 8 * z2) + 16 * x * z * below));
 }
 
-double internal_kummer_surface_v1(const double *p)
-{
-    SQUARES;
-    return field(p, -(x2 * x2 + y2 * y2 + z2 * z2 - x2 - y2 - z2 - x2 * y2 - x2 * z2 - y2 * z2 + 1));
-}
-
-double internal_kummer_surface_v2(const double *p)
-{
-    SQUARES;
-    return field(p, -(x2 * x2 + y2 * y2 + z2 * z2 + p[4] * (x2 + y2 + z2) + p[5] * (x2 * y2 + x2 * z2 + y2 * z2) +
-                      p[6] * x * y * z - 1));
-}
-
-double internal_lemniscate_of_gerono(const double *p)
-{
-    SQUARES;
-    return field(p, -(x2 * x2 - x2 + y2 + z2));
-}
-
-double internal_mitre(const double *p)
-{
-    SQUARES;
-    return field(p, y2 * (1 - y2 - z2) - 4 * x2 * (x2 + y2 + z2));
-}
-
-double internal_nodal_cubic(const double *p)
-{
-    SQUARES;
-    return field(p, 6 * y * z - y2 * y - z2 * z);
-}
-
 double internal_ovals_of_cassini(const double *p)
 {
     SQUARES;
     const double major2 = p[4] * p[4], a = x2 + y2 + z2 + major2;
     return field(p, -(a * a - p[6] * major2 * (x2 + z2) - p[5] * p[5]));
-}
-
-double internal_paraboloid(const double *p)
-{
-    SQUARES;
-    return field(p, y - x2 - z2);
 }
 
 double internal_parabolic_torus(const double *p)
@@ -287,28 +224,10 @@ double internal_parabolic_torus(const double *p)
                       sum * z + difference * difference));
 }
 
-double internal_pillow(const double *p)
-{
-    SQUARES;
-    return field(p, x2 * x2 + y2 * y2 + z2 * z2 - (x2 + y2 + z2));
-}
-
 double internal_piriform(const double *p)
 {
     SQUARES;
     return -field(p, -(x2 * x2 - x2 * x + y2 + z2));
-}
-
-double internal_quartic_paraboloid(const double *p)
-{
-    SQUARES;
-    return field(p, y - x2 * x2 - z2 * z2);
-}
-
-double internal_quartic_saddle(const double *p)
-{
-    SQUARES;
-    return field(p, y + z2 * z2 - x2 * x2);
 }
 
 double internal_quartic_cylinder(const double *p)
@@ -316,12 +235,6 @@ double internal_quartic_cylinder(const double *p)
     SQUARES;
     const double b2 = p[5] * p[5];
     return field(p, -((x2 + z2) * y2 + b2 * (x2 + z2) - b2 * p[4] * p[4]));
-}
-
-double internal_steiners_roman(const double *p)
-{
-    SQUARES;
-    return field(p, -(x2 * y2 + x2 * z2 + y2 * z2 + x * y * z));
 }
 
 double internal_strophoid(const double *p)
@@ -343,16 +256,4 @@ double internal_torus_gumdrop(const double *p)
     SQUARES;
     const double r2 = y2 + z2;
     return field(p, -(4 * (x2 * x2 + r2 * r2) + 17 * x2 * r2 - 20 * (x2 + r2) + 17));
-}
-
-double internal_umbrella(const double *p)
-{
-    SQUARES;
-    return field(p, y * z2 - x2);
-}
-
-double internal_witch_of_agnesi(const double *p)
-{
-    SQUARES;
-    return field(p, -(p[4] * (y - 1) + (x2 + z2) * y));
 }

@@ -8,7 +8,7 @@ static int check_texture(const Scene *scene, const Texture *texture, int whole, 
     const int is_opaque = texture_is_opaque(texture);
     for (int k = 0; k < texture_leaf_count(texture); k++) {
         const Texture *leaf = texture_leaf(texture, k);
-        const int target = texture_leaf_target(leaf, whole), scatters_below = finish_is_subsurface(leaf->finish);
+        const int target = first_target(leaf->target, whole), scatters_below = finish_is_subsurface(leaf->finish);
         if (target >= 0 && scene->targets[target].nfinishes && (!is_opaque || scatters_below))
             return retex_fail(err, RETEX_EUNSUPPORTED,
                               "--finish: light goes %s target %s: its finish cannot be chosen later",

@@ -37,11 +37,6 @@ static Vec3 center_of(const LightBounds *l)
     return vec_scale(vec_add(l->low, l->high), 0.5);
 }
 
-static double component(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 static void bucket_clear(Bucket *b)
 {
     *b = (Bucket){0, 0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0, 0, 0}};
@@ -49,8 +44,7 @@ static void bucket_clear(Bucket *b)
 
 static void grow(Bucket *b, Vec3 low, Vec3 high)
 {
-    b->low = vec3(fmin(b->low.x, low.x), fmin(b->low.y, low.y), fmin(b->low.z, low.z));
-    b->high = vec3(fmax(b->high.x, high.x), fmax(b->high.y, high.y), fmax(b->high.z, high.z));
+    b->low = vec_min(b->low, low), b->high = vec_max(b->high, high);
 }
 
 /* The axis of a light that emits on both sides has no sign: it is turned to the side of another axis. */
@@ -184,21 +178,21 @@ static Cut find_cut(const Builder *b, int first, int end)
         Vec3 c = center_of(l);
         double power = light_power(b, l);
         for (int axis = 0; axis < 3; axis++)
-            if (component(extent, axis) > 0)
-                bucket_add(&buckets[axis][bucket_of(component(c, axis), component(centers.low, axis),
-                                                    component(centers.high, axis))],
+            if (vec_component(extent, axis) > 0)
+                bucket_add(&buckets[axis][bucket_of(vec_component(c, axis), vec_component(centers.low, axis),
+                                                    vec_component(centers.high, axis))],
                            l, power, facing);
     }
     Cut best = {-1, 0, 0, 0};
     double least = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
         int at = 0;
-        if (!(component(extent, axis) > 0))
+        if (!(vec_component(extent, axis) > 0))
             continue;
         /* thin slabs cost more than their surface area tells */
-        double cost = cheapest_split(buckets[axis], &at) * longest / component(extent, axis);
+        double cost = cheapest_split(buckets[axis], &at) * longest / vec_component(extent, axis);
         if (cost < least || best.axis < 0)
-            least = cost, best = (Cut){axis, at, component(centers.low, axis), component(centers.high, axis)};
+            least = cost, best = (Cut){axis, at, vec_component(centers.low, axis), vec_component(centers.high, axis)};
     }
     return best;
 }
@@ -222,7 +216,7 @@ static void cut_range(Builder *b, Range *range, Range *rest)
     int middle = range->first;
     for (int k = range->first; k < range->end && cut.axis >= 0; k++) {
         int light = b->order[k];
-        if (bucket_of(component(center_of(&b->lights[light]), cut.axis), cut.low, cut.high) < cut.at) {
+        if (bucket_of(vec_component(center_of(&b->lights[light]), cut.axis), cut.low, cut.high) < cut.at) {
             b->order[k] = b->order[middle];
             b->order[middle++] = light;
         }

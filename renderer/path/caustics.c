@@ -1,8 +1,8 @@
 /* The cells of the guide, made of where photons landed, and their lobes. */
 #include <stdlib.h>
 #include <string.h>
+#include "base/bvh.h"
 #include "path/caustics.h"
-#include "path/photons.h"
 
 #define CELL_PHOTONS 64 /* cells of more are cut */
 #define CELL_LEAST 16   /* but not into less */
@@ -26,10 +26,6 @@ typedef struct Node {
     int axis;  /* 0..2, or -1: a leaf */
     int child; /* of the first of two nodes; of a leaf: its cell */
 } Node;
-
-typedef struct Bounds {
-    Vec3 low, high;
-} Bounds;
 
 struct Caustics {
     Node *nodes;
@@ -58,15 +54,10 @@ typedef struct Lobe {
     double distance2;  /* mean squared distance of the landings from `at` */
 } Lobe;
 
-static double component(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 /* The key that photons are sorted by. */
 static double key(const Landing *l, int of_from, int axis)
 {
-    return component(of_from ? l->from : l->position, axis);
+    return vec_component(of_from ? l->from : l->position, axis);
 }
 
 /* Partial sort: the nth of a range gets its place, smaller ones before it and larger ones after it. */
@@ -97,12 +88,9 @@ static void select_nth(Landing *l, int first, int end, int nth, int of_from, int
 
 static Bounds range_bounds(const Landing *l, int first, int end)
 {
-    Bounds b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (int k = first; k < end; k++) {
-        Vec3 p = l[k].position;
-        b.low = vec3(fmin(b.low.x, p.x), fmin(b.low.y, p.y), fmin(b.low.z, p.z));
-        b.high = vec3(fmax(b.high.x, p.x), fmax(b.high.y, p.y), fmax(b.high.z, p.z));
-    }
+    Bounds b = bounds_empty();
+    for (int k = first; k < end; k++)
+        bounds_add(&b, l[k].position);
     return b;
 }
 
@@ -164,9 +152,9 @@ static void fit_move(const Landing *landings, Lobe *lobe)
     for (int k = lobe->first; k < lobe->end; k++) {
         const Vec3 a = vec_sub(landings[k].position, lobe->at), f = vec_sub(landings[k].from, lobe->center);
         for (int i = 0; i < 9; i++) {
-            const double at = landings[k].power * component(a, i % 3);
-            both[i / 3][i % 3] += component(f, i / 3) * at;
-            landed[i / 3][i % 3] += component(a, i / 3) * at;
+            const double at = landings[k].power * vec_component(a, i % 3);
+            both[i / 3][i % 3] += vec_component(f, i / 3) * at;
+            landed[i / 3][i % 3] += vec_component(a, i / 3) * at;
         }
     }
     const double least = MOVE_LEAST * (landed[0][0] + landed[1][1] + landed[2][2]) + 1e-30;
@@ -361,12 +349,12 @@ static int make_guide(Builder *m, int count, RetexError *err)
     return RETEX_OK;
 }
 
-int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, CausticsOf of,
-                    long paths, int nthreads, const RetexBudget *budget, RetexError *err)
+int caustics_create(Caustics **caustics, const PhotonSources *sources, CausticsOf of, int nthreads, RetexError *err)
 {
-    const PhotonSources sources = {scene, accel, lights, of != CAUSTICS_OF_SOURCES, paths, budget};
-    Builder m = {.lights = lights};
-    int code = photons_trace(&m.photons, &sources, nthreads, err);
+    PhotonSources own = *sources;
+    Builder m = {.lights = sources->lights};
+    own.of_emitters = of != CAUSTICS_OF_SOURCES;
+    int code = photons_trace(&m.photons, &own, nthreads, err);
     *caustics = NULL;
     if (!code && m.photons.count >= CELL_PHOTONS)
         code = make_guide(&m, m.photons.count, err);
@@ -393,7 +381,7 @@ const CausticsCell *caustics_find(const Caustics *c, Vec3 position)
 {
     const Node *node = c->nodes;
     while (node->axis >= 0)
-        node = &c->nodes[node->child + ((float)component(position, node->axis) >= node->split)];
+        node = &c->nodes[node->child + ((float)vec_component(position, node->axis) >= node->split)];
     const Bounds *b = &c->bounds[node->child];
     int inside = position.x >= b->low.x && position.y >= b->low.y && position.z >= b->low.z &&
                  position.x <= b->high.x && position.y <= b->high.y && position.z <= b->high.z;

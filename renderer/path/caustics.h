@@ -11,21 +11,17 @@
 #ifndef RENDERER_PATH_CAUSTICS_H
 #define RENDERER_PATH_CAUSTICS_H
 
-#include <stdint.h>
-#include "accel/accel.h"
-#include "light/lights.h"
 #include "path/caustics_kernel.h"
+#include "path/photons.h"
 
 typedef struct Caustics Caustics;
 
 typedef enum CausticsOf { CAUSTICS_OF_SOURCES, CAUSTICS_OF_EMITTERS, CAUSTICS_OF_SMALL_EMITTERS } CausticsOf;
 
 /* Photons start from light sources that have caustics and, unless `of` is CAUSTICS_OF_SOURCES, from shapes that emit;
- * with CAUSTICS_OF_SMALL_EMITTERS the guide is given up where it is not worth its time. paths: the number of paths of
- * the picture, of whose time photons take a small share. *caustics is NULL where there are no caustics, and after a
- * failure, such as that the budget (NULL = none) stops it. The result is the same for every nthreads. */
-int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, CausticsOf of,
-                    long paths, int nthreads, const RetexBudget *budget, RetexError *err);
+ * with CAUSTICS_OF_SMALL_EMITTERS the guide is given up where it is not worth its time. *caustics is NULL where there
+ * are no caustics, and after a failure, such as that the budget stops it. The result is the same for every nthreads. */
+int caustics_create(Caustics **caustics, const PhotonSources *sources, CausticsOf of, int nthreads, RetexError *err);
 void caustics_close(Caustics **caustics);
 /* The cell of a point, or NULL where no photons landed. */
 const CausticsCell *caustics_find(const Caustics *caustics, Vec3 position);

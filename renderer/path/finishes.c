@@ -6,7 +6,6 @@
 #include <retex/host/texture_lookup.h>
 
 #include "path/internal.h"
-#include "shade/material.h"
 
 #define SAME_DIRECTION 1e-12 /* of delta lobes: squared distance */
 
@@ -126,11 +125,6 @@ Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINI
     return finishes->has_normals ? eval_normal(v, 0, wi, light) : shown(finishes, values);
 }
 
-static Split scaled(Split s, float by)
-{
-    return (Split){rgb_scale(s.d, by), rgb_scale(s.i, by)};
-}
-
 /* A delta lobe of one finish was sampled. Those of the others in the same direction could have been, too. */
 static void weigh_deltas(const VertexFinishes *finishes, const BsdfSample *sample, Split weights[FINISHES_MAX])
 {
@@ -141,7 +135,7 @@ static void weigh_deltas(const VertexFinishes *finishes, const BsdfSample *sampl
         sum += p;
     }
     for (int k = 0; k < finishes->count; k++)
-        weights[k] = scaled(weights[k], sum > 0 ? (float)finishes->count / sum : 0);
+        weights[k] = split_times(weights[k], sum > 0 ? (float)finishes->count / sum : 0);
 }
 
 /* The finish by whose BSDF a direction is sampled; *u becomes the number that chooses among its lobes. Delta lobes of
@@ -172,9 +166,9 @@ int finishes_sample(const Vertex *v, float u_lobe, float u1, float u2, BsdfSampl
         return 0;
     if (sample->pdf > 0) {
         const Split whole = finishes_eval(v, sample->wi, BSDF_ANY_LIGHT, weights, &sample->pdf);
-        sample->weight = scaled(whole, 1 / sample->pdf);
+        sample->weight = split_times(whole, 1 / sample->pdf);
         for (int i = 0; i < finishes->count; i++)
-            weights[i] = scaled(weights[i], 1 / sample->pdf);
+            weights[i] = split_times(weights[i], 1 / sample->pdf);
     } else {
         weigh_deltas(finishes, sample, weights);
         sample->weight = shown(finishes, weights);

@@ -229,11 +229,27 @@ static inline float mis_weight(float a, float b)
 
 /* Choose a leaf at a path's vertex. What the layers above do to light goes into the path's throughput. */
 void choose_leaf(PathWorker *worker, Path *path, Shading *s, Vec3 wo);
+/* What a direct-light sample's light is multiplied by: its colour, and factors of targets. */
+typedef struct LightFactors {
+    Rgb *light;
+    Factor *factors;
+    int count, most;
+    Rgb (*storage)[VARIANTS_MAX]; /* a row of albedos for each factor */
+} LightFactors;
+
+/* Add the factor of a surface. Returns 0 where there are too many. */
+static inline int light_factors_add(const PathContext *c, LightFactors *to, Factor factor, const Shading *s)
+{
+    if (to->count == to->most)
+        return 0;
+    factor.albedos = keep_albedos(c, to->storage[to->count], s);
+    to->factors[to->count++] = factor;
+    return 1;
+}
 /* The same for an emitter that is sampled, and for a surface on a shadow ray, of which leaves that let light pass are
- * looked at: returns 0 where there is none. *tint gets what light is multiplied by, factors the layers above that are
- * targets, with albedos in storage, a row for each. */
+ * looked at: returns 0 where there is none. What the leaf and the layers above it do goes to the light's factors. */
 int choose_leaf_of_light(PathWorker *worker, const Path *path, Shading *s, Vec3 wo, int passing, unsigned texture,
-                         Rgb *tint, Factor *factors, int *nfactors, int most_factors, Rgb (*storage)[VARIANTS_MAX]);
+                         LightFactors *to);
 
 /* ---- dispersion.c ---- */
 

@@ -51,7 +51,7 @@ void choose_leaf(PathWorker *w, Path *path, Shading *s, Vec3 wo)
 /* ---- what a direct-light sample meets ---- */
 
 int choose_leaf_of_light(PathWorker *w, const Path *path, Shading *s, Vec3 wo, int passing, unsigned texture,
-                         Rgb *tint, Factor *factors, int *nfactors, int most_factors, Rgb (*storage)[VARIANTS_MAX])
+                         LightFactors *to)
 {
     const Surface whole = s->surface;
     Leaves leaves;
@@ -62,14 +62,12 @@ int choose_leaf_of_light(PathWorker *w, const Path *path, Shading *s, Vec3 wo, i
     const Leaf *leaf = passing ? leaves_choose_passing(&leaves, u, &weight) : leaves_choose(&leaves, u, &weight);
     if (!leaf)
         return 0;
-    *tint = rgb_mul(*tint, rgb_scale(leaf->tint, weight));
+    *to->light = rgb_mul(*to->light, rgb_scale(leaf->tint, weight));
     for (int k = leaf->above; k >= 0; k = leaves.above[k].above) {
-        if (*nfactors == most_factors)
-            return 0;
         shading_above(&layer, &whole, &leaves.above[k], w->variants, w->context->nvariants);
-        factors[*nfactors] = shading_factor(&layer, splat(leaves.above[k].d), splat(leaves.above[k].i));
-        factors[*nfactors].albedos = keep_albedos(w->context, storage[*nfactors], &layer);
-        ++*nfactors;
+        const Factor factor = shading_factor(&layer, splat(leaves.above[k].d), splat(leaves.above[k].i));
+        if (!light_factors_add(w->context, to, factor, &layer))
+            return 0;
     }
     shading_leaf(s, &whole, leaf, w->variants, w->context->nvariants);
     return 1;

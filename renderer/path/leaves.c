@@ -45,7 +45,7 @@ static void add_leaf(Leaves *leaves, const Leaf *leaf)
 static void set_color(Leaf *leaf, const Point *at, const Texture *texture)
 {
     leaf->texture = texture;
-    leaf->target = texture_leaf_target(texture, at->surface->target);
+    leaf->target = first_target(texture->target, at->surface->target);
     const Surface surface = leaf_surface(at->surface, texture, leaf->target);
     Vec2 ignored;
     const Rgbft c = surface_color(&surface, NULL, &ignored);

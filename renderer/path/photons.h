@@ -24,9 +24,9 @@ typedef struct PhotonSources {
     const Scene *scene;
     const Accel *accel;
     const Lights *lights;
-    int of_emitters;
-    long paths;
+    long paths; /* of the picture, of whose time photons take a small share */
     const RetexBudget *budget; /* may stop it, or NULL */
+    int of_emitters; /* set by caustics_create */
 } PhotonSources;
 
 /* The result is the same for every nthreads. */

@@ -20,15 +20,10 @@ typedef struct Visit {
     long copied;
 } Visit;
 
-static int first_target(int a, int b)
-{
-    return a < 0 || (b >= 0 && b < a) ? b : a;
-}
-
 static int texture_is(const Texture *texture, int whole, int target)
 {
     for (int k = 0; texture->tree && k < texture->tree->nleaves; k++)
-        if (texture_leaf_target(texture->tree->leaves[k], whole) == target)
+        if (first_target(texture->tree->leaves[k]->target, whole) == target)
             return 1;
     return !texture->tree && whole == target;
 }

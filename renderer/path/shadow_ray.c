@@ -105,30 +105,16 @@ static Surface seen_from_outside(Surface surface)
     return surface;
 }
 
-/* The factors of one light sample's shadow ray so far, and what else dims it. */
-typedef struct ShadowFactors {
-    Factor *factors;
-    int count, most;
-    Rgb *light;
-} ShadowFactors;
-
-static void add_factor(PathWorker *w, ShadowFactors *to, Factor factor, const Shading *s)
-{
-    factor.albedos = keep_albedos(w->context, w->shadow_albedos[to->count], s);
-    to->factors[to->count++] = factor;
-}
-
 /* The k-th surface on the ray. Returns 0 where no light passes. */
 static int pass_surface(PathWorker *w, const Path *path, const Surface *surface, int k, Vec3 wo, const Light *source,
-                        ShadowFactors *to)
+                        LightFactors *to)
 {
     Shading s;
     Factor factor;
     s.surface = *surface;
     if (surface->texture->tree) {
         s.surface = seen_from_outside(*surface);
-        if (!choose_leaf_of_light(w, path, &s, wo, 1, TEXTURE_SHADOW + (unsigned)k, to->light, to->factors, &to->count,
-                                  to->most, w->shadow_albedos))
+        if (!choose_leaf_of_light(w, path, &s, wo, 1, TEXTURE_SHADOW + (unsigned)k, to))
             return 0;
     } else {
         shading_color(&s, NULL, w->variants, w->context->nvariants);
@@ -139,10 +125,8 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
         return 0;
     if (factor.target < 0 || is_black4(factor.d))
         *to->light = rgb_mul(*to->light, rgb_of4(factor_whole(&factor)));
-    else if (to->count == to->most)
-        return 0;
     else
-        add_factor(w, to, factor, &s);
+        return light_factors_add(w->context, to, factor, &s);
     return 1;
 }
 
@@ -167,7 +151,7 @@ static inline void dim(PathWorker *w, const Path *path, const Media *media, cons
 
 /* Follow a shadow ray through transparent surfaces, one after the other. */
 static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, const Light *source, Media *media,
-                                  ShadowFactors *to)
+                                  LightFactors *to)
 {
     const PathContext *c = w->context;
     Hit hit;
@@ -191,7 +175,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
 
 /* Of a shadow ray that is not blocked, and may leave on the other side of the surface. */
 static int trace_through_media(PathWorker *w, const Path *path, const Surface *from, const DirectLightSample *t,
-                               ShadowFactors *to)
+                               LightFactors *to)
 {
     const Light *source = t->light.source;
     Media media = path->media;
@@ -219,7 +203,8 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     if (t->light.is_sky) /* only now: the sky's picture is large, and most of these rays are blocked in a room */
         *light = sky_radiance(w->context->scene, t->light.direction, 0);
     if (t->visibility == VISIBILITY_TRANSPARENT || t->transmitted)
-        return trace_through_media(w, path, from, t, &(ShadowFactors){factors, 0, most_factors, light});
+        return trace_through_media(w, path, from, t,
+                                   &(LightFactors){light, factors, 0, most_factors, w->shadow_albedos});
     dim(w, path, &path->media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
     return 0;
 }

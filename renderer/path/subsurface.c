@@ -9,7 +9,6 @@
  * Mean free paths differ by colour. A walk takes those of one colour, chosen at random, and the others weigh by how
  * likely they are to take the same steps (the balance heuristic). */
 #include "path/internal.h"
-#include "shade/material.h"
 
 #define SCATTER_ALBEDO 0.9901 /* by the fit of Chiang et al. 2016, 'Practical and Controllable Subsurface Scattering' */
 #define ATTEMPTS_MAX 16

@@ -35,20 +35,13 @@ Vec2 surface_target_uv(const Surface *surface)
 
 /* ---- where u and v of a target grow ---- */
 
-/* From one side to the other; what goes round begins again somewhere. */
-static double difference(double after, double before)
-{
-    const double d = after - before;
-    return fabs(d) > 0.5 && fabs(d) <= 1 ? d - copysign(1, d) : d;
-}
-
 /* How UV change with a step to both sides over the plane that touches the surface. */
 static Vec2 uv_step(const Surface *surface, Vec3 step)
 {
     Surface before = *surface, after = *surface;
     before.position = vec_sub(surface->position, step), after.position = vec_add(surface->position, step);
     const Vec2 a = surface_target_uv(&before), b = surface_target_uv(&after);
-    return (Vec2){difference(b.u, a.u), difference(b.v, a.v)};
+    return (Vec2){uv_difference(b.u, a.u), uv_difference(b.v, a.v)};
 }
 
 /* Of UV that belong to the corners of a mesh, which a pigment may turn. */

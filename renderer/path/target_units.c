@@ -2,7 +2,6 @@
 #include <math.h>
 #include "path/projection.h"
 #include "path/target_units.h"
-#include "shade/pigment.h"
 #include "shape/shape.h"
 
 #define SAME 0.01 /* lengths around that differ less are stretched to be the same */
@@ -114,14 +113,6 @@ static Vec2 flat_uv(const Surface *surface, const ShapeExtent *extent, Vec2 natu
                   natural.v * l[1] + vec_dot(corner, extent->v) / l[1]};
 }
 
-static Vec2 box_projection(const Surface *surface)
-{
-    const Vec3 p = surface->position, n = surface->geometric_normal, size = vec3(fabs(n.x), fabs(n.y), fabs(n.z));
-    if (size.x > size.y && size.x > size.z)
-        return (Vec2){p.z, p.y};
-    return size.y > size.z ? (Vec2){p.x, p.z} : (Vec2){p.x, p.y};
-}
-
 static double fold(double turn)
 {
     return fmin(turn, 1 - turn);
@@ -140,7 +131,7 @@ int target_units_uv(const Surface *surface, const SurfaceUv *of, Vec2 *uv)
     if (!target || !(target->uv_unit[0] > 0) || has_own_uv(surface->primitive, surface->texture->pigment))
         return 0;
     if (!of->has_natural || !extent_of(surface->primitive, surface->instance, surface->face, &extent)) {
-        *uv = box_projection(surface);
+        *uv = vec_project(surface->position, surface->geometric_normal);
         return 1;
     }
     const double scale[2] = {extent.lengths[0] / target->uv_unit[0], extent.lengths[1] / target->uv_unit[1]};

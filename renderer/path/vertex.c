@@ -18,19 +18,18 @@ int emitter_factors(PathWorker *w, const Path *path, int lane, LightSample *ligh
 {
     const PathContext *c = w->context;
     Rgb(*storage)[VARIANTS_MAX] = w->light_albedos[lane];
+    LightFactors above = {&light->radiance, factors, 0, LIGHT_FACTORS_MAX - 1, storage + 1};
     Shading s;
-    int n = 0;
     s.surface = light->surface;
     light->radiance = rgb_grey(1);
     if (!s.surface.texture->tree)
         shading_color(&s, NULL, w->variants, c->nvariants);
-    else if (!choose_leaf_of_light(w, path, &s, vec_neg(light->direction), 0, TEXTURE_LIGHT, &light->radiance, factors,
-                                   &n, LIGHT_FACTORS_MAX - 1, storage + 1))
+    else if (!choose_leaf_of_light(w, path, &s, vec_neg(light->direction), 0, TEXTURE_LIGHT, &above))
         light->radiance = rgb_grey(0);
     const Split emission = surface_emission(&s);
-    factors[n] = shading_factor(&s, color4(emission.d), color4(emission.i));
-    factors[n].albedos = keep_albedos(c, storage[0], &s);
-    return n + 1;
+    factors[above.count] = shading_factor(&s, color4(emission.d), color4(emission.i));
+    factors[above.count].albedos = keep_albedos(c, storage[0], &s);
+    return above.count + 1;
 }
 
 LightSampleContext light_sample_context(const Shading *s)

@@ -1,5 +1,6 @@
 /* density_file: numbers of a grid over the unit cube. Pattern.number is the kind of interpolation: 0 none, 1 linear,
  * 2 cubic. */
+#include "base/polynomial.h"
 #include "pattern/density_file.h"
 
 static double at(const DensityFile *file, int x, int y, int z)
@@ -34,10 +35,7 @@ static int weights_of(int kind, double t, double weights[4], int *first)
         weights[0] = 1 - t, weights[1] = t;
         return 2;
     }
-    weights[0] = t * (-0.5 + t * (1 - 0.5 * t));
-    weights[1] = 1 + t * t * (-2.5 + 1.5 * t);
-    weights[2] = t * (0.5 + t * (2 - 1.5 * t));
-    weights[3] = t * t * (-0.5 + 0.5 * t);
+    cubic_weights(t, weights);
     return 4;
 }
 

@@ -7,7 +7,6 @@
 #include <retex/parallel.h>
 #include "camera/camera.h"
 #include "render/control_constants.h"
-#include "path/path.h"
 
 enum { GRID = 3, MEANS = 32 }; /* per side: rays of a pixel, and texels of a target's mean */
 #define FOLDED_MAX 1e-3        /* limit of the light with fixed original textures, which recombination cannot change */

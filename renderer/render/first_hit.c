@@ -5,7 +5,6 @@
 #include <retex/parallel.h>
 #include "camera/camera.h"
 #include "render/first_hit.h"
-#include "path/path.h"
 #include "path/projection.h"
 #include "shape/shape.h"
 
@@ -268,7 +267,7 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
         for (int j = 0; (texture = primitive_texture(p, j, &whole)); j++)
             for (int leaf = 0; leaf < texture_leaf_count(texture); leaf++) {
                 const Texture *of = texture_leaf(texture, leaf);
-                if ((texture->tree ? texture_leaf_target(of, whole) : whole) != t)
+                if ((texture->tree ? first_target(of->target, whole) : whole) != t)
                     continue;
                 closes(p, of->pigment, &u, &v);
                 any = 1;

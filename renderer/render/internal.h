@@ -82,6 +82,9 @@ int render_paths(Render *render, RenderStats *stats, double started, RetexError 
 void render_sample(Render *render, int x, int y, int sample); /* a single path, for --trace-pixel */
 /* The camera rays of these samples of a pixel of the whole picture. */
 void render_camera_rays(const Render *render, int x, int y, int first, int count, Ray *rays);
+/* What they meet, each in turn. */
+typedef void RenderHitVisitor(void *context, const Ray *ray, const Hit *hit);
+void render_camera_hits(const Render *render, int x, int y, int count, RenderHitVisitor *visit, void *context);
 HalfSamples render_half_samples(const Render *render);        /* samples of each half */
 int render_tile_pixels(const Render *render, int tile, int *x0, int *y0, int *across); /* how many */
 /* Add the light of the samples from `from` to `to` - 1 of a tile's pixels to sums, row by row. Of renders of the light

@@ -3,12 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/denoise.h>
-#include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include "light/lights.h"
 #include "path/caustics.h"
 #include "path/projection.h"
-#include "path/target_units.h"
 #include "render/live.h"
 #include "render/render.h"
 
@@ -71,11 +69,6 @@ static int open_workers(LiveRender *l, RetexError *err)
     return code;
 }
 
-static double largest(Vec3 v)
-{
-    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-}
-
 static int open_render(LiveRender *l, const RenderParams *params, RetexError *err)
 {
     const Vec3 eye = l->scene->camera.location;
@@ -86,7 +79,7 @@ static int open_render(LiveRender *l, const RenderParams *params, RetexError *er
     if (code)
         return code;
     accel_bounds(l->render.accel, eye, &low, &high);
-    l->eye = eye, l->far = FAR * fmax(largest(low), largest(high)), l->guided = -1;
+    l->eye = eye, l->far = FAR * fmax(vec_largest(low), vec_largest(high)), l->guided = -1;
     return RETEX_OK;
 }
 
@@ -150,7 +143,7 @@ static int adapt(LiveRender *l, RetexError *err)
 {
     const Vec3 eye = l->scene->camera.location;
     const RenderParams params = l->render.params;
-    if (largest(eye) <= l->far && !lights_differ(l->scene, l->eye, eye))
+    if (vec_largest(eye) <= l->far && !lights_differ(l->scene, l->eye, eye))
         return RETEX_OK;
     render_close(&l->render);
     return open_render(l, &params, err);

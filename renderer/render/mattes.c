@@ -121,22 +121,10 @@ static void add_seen(void *context, const SeenSurface *seen)
     add_name(pixel, CRYPTO_THROUGH_MATERIAL, material, seen->ends);
 }
 
-static void add_samples(MattePixel *pixel, int x, int y)
+static void add_hit(void *context, const Ray *ray, const Hit *hit)
 {
-    const Mattes *m = pixel->mattes;
-    const Render *r = m->render;
-    Ray rays[ACCEL_PACKET];
-    RayKind kinds[ACCEL_PACKET];
-    Hit hits[ACCEL_PACKET];
-    for (int i = 0; i < ACCEL_PACKET; i++)
-        kinds[i] = RAY_CAMERA;
-    for (int s = 0, count; s < m->samples; s += count) {
-        count = m->samples - s < ACCEL_PACKET ? m->samples - s : ACCEL_PACKET;
-        render_camera_rays(r, r->x0 + x, r->y0 + y, s, count, rays);
-        accel_intersect_packet(r->accel, rays, kinds, count, 1, hits);
-        for (int i = 0; i < count; i++)
-            seen_through(&m->window, &rays[i], &hits[i], add_seen, pixel);
-    }
+    MattePixel *pixel = context;
+    seen_through(&pixel->mattes->window, ray, hit, add_seen, pixel);
 }
 
 static float *value_at(const Mattes *m, const MatteThread *thread, int line, int value)
@@ -185,7 +173,7 @@ static int begin_rows(void *context, int y, int lines, int thread)
             memset(pixel.masks, 0, sizeof pixel.masks);
             for (int kind = 0; kind < CRYPTO_KINDS; kind++)
                 pixel.crypto[kind].count = 0;
-            add_samples(&pixel, x, y + line);
+            render_camera_hits(m->render, m->render->x0 + x, m->render->y0 + y + line, m->samples, add_hit, &pixel);
             store_pixel(&pixel, line, x);
         }
     return RETEX_OK;

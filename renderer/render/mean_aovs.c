@@ -36,24 +36,13 @@ static void add_leaf(void *context, const SeenLeaf *leaf)
     }
 }
 
-static void add_samples(MeanPixel *pixel, int x, int y)
+static void add_hit(void *context, const Ray *ray, const Hit *hit)
 {
+    MeanPixel *pixel = context;
     const Render *r = pixel->job->render;
-    Ray rays[ACCEL_PACKET];
-    RayKind kinds[ACCEL_PACKET];
-    Hit hits[ACCEL_PACKET];
-    for (int i = 0; i < ACCEL_PACKET; i++)
-        kinds[i] = RAY_CAMERA;
-    for (int s = 0, count; s < pixel->job->samples; s += count) {
-        count = pixel->job->samples - s < ACCEL_PACKET ? pixel->job->samples - s : ACCEL_PACKET;
-        render_camera_rays(r, r->x0 + x, r->y0 + y, s, count, rays);
-        accel_intersect_packet(r->accel, rays, kinds, count, 1, hits);
-        for (int i = 0; i < count; i++)
-            if (hits[i].primitive >= 0) {
-                pixel->hit = &hits[i];
-                shading_each_leaf(r->scene, r->variants, &rays[i], &hits[i], add_leaf, pixel);
-            }
-    }
+    pixel->hit = hit;
+    if (hit->primitive >= 0)
+        shading_each_leaf(r->scene, r->variants, ray, hit, add_leaf, pixel);
 }
 
 static void mean_row(void *context, int y, int thread)
@@ -62,7 +51,7 @@ static void mean_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < job->render->w && !render_is_stopped(job->render); x++) {
         MeanPixel pixel = {.job = job};
-        add_samples(&pixel, x, y);
+        render_camera_hits(job->render, job->render->x0 + x, job->render->y0 + y, job->samples, add_hit, &pixel);
         for (int k = 0; k < RETEX_AOV_COUNT; k++)
             for (int c = 0; job->images[k] && c < job->images[k]->channels; c++)
                 job->images[k]->pixels[retex_image_index(job->images[k], x, y) + (size_t)c] =

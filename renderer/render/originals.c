@@ -105,7 +105,7 @@ static const Pigment *target_pigment(const Scene *scene, int target, const Primi
     for (int k = 0; texture && (other = primitive_texture(*of, k, &whole)); k++)
         for (int j = 0; other->tree && j < other->tree->nleaves; j++) {
             const Texture *leaf = other->tree->leaves[j];
-            if (leaf->pigment != texture->pigment && texture_leaf_target(leaf, whole) == target)
+            if (leaf->pigment != texture->pigment && first_target(leaf->target, whole) == target)
                 return NULL;
         }
     return texture ? texture->pigment : NULL;
@@ -187,7 +187,7 @@ static float brightest_leaf(const Texture *texture, int whole, int target)
     float most = 0;
     for (int j = 0; j < texture_leaf_count(texture); j++) {
         const Texture *leaf = texture_leaf(texture, j);
-        if ((texture->tree ? texture_leaf_target(leaf, whole) : whole) == target && leaf->pigment)
+        if ((texture->tree ? first_target(leaf->target, whole) : whole) == target && leaf->pigment)
             most = fmaxf(most, mean_luminance(leaf->pigment));
     }
     return most;

@@ -7,7 +7,6 @@
 #include "film/paper/paper.h"
 #include "render/checkpoints.h"
 #include "path/caustics.h"
-#include "path/photons.h"
 #include "render/internal.h"
 #include "render/originals.h"
 #include "render/render.h"
@@ -199,8 +198,9 @@ int render_open_guide(Render *r, RetexError *err)
     const CausticsOf of = guide > 0                    ? CAUSTICS_OF_EMITTERS
                           : r->context.caustic_sources ? CAUSTICS_OF_SOURCES
                                                        : CAUSTICS_OF_SMALL_EMITTERS;
-    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, of,
-                               (long)r->width * r->height * r->params.spp, r->params.nthreads, r->params.budget, err);
+    const PhotonSources sources = {.scene = r->scene, .accel = r->accel, .lights = r->lights,
+                                   .paths = (long)r->width * r->height * r->params.spp, .budget = r->params.budget};
+    int code = caustics_create(&r->caustics, &sources, of, r->params.nthreads, err);
     r->context.caustics = r->caustics;
     return code;
 }

@@ -110,6 +110,22 @@ void render_camera_rays(const Render *r, int x, int y, int first, int count, Ray
         rays[i] = start_sample(r, &start, first + i, &unused);
 }
 
+void render_camera_hits(const Render *r, int x, int y, int count, RenderHitVisitor *visit, void *context)
+{
+    Ray rays[ACCEL_PACKET];
+    RayKind kinds[ACCEL_PACKET];
+    Hit hits[ACCEL_PACKET];
+    for (int i = 0; i < ACCEL_PACKET; i++)
+        kinds[i] = RAY_CAMERA;
+    for (int s = 0, n; s < count; s += n) {
+        n = count - s < ACCEL_PACKET ? count - s : ACCEL_PACKET;
+        render_camera_rays(r, x, y, s, n, rays);
+        accel_intersect_packet(r->accel, rays, kinds, n, 1, hits);
+        for (int i = 0; i < n; i++)
+            visit(context, &rays[i], &hits[i]);
+    }
+}
+
 /* Trace additional camera rays for the guides, if the guides need more sample points than the pixel has samples. */
 static void end_guides(const Render *r, int thread, PixelGuides *guides, int spp, int x, int y)
 {

@@ -5,7 +5,6 @@
 #include <string.h>
 #include <strings.h>
 #include <retex/nearest.h>
-#include <retex/target_name.h>
 #include "scene/scene.h"
 
 #define ORIGINAL "original"

@@ -150,15 +150,10 @@ static int read_selector(LampSelector *selector, const Scene *scene, const char 
 
 static int read_name(Lamp *lamp, const char *spec, size_t length, RetexError *err)
 {
-    if (length == 0 || length >= sizeof lamp->name)
-        return retex_fail(err, RETEX_EINVAL, "lamp `%s`: a name has 1 to %d bytes", spec, RETEX_NAME_MAX - 1);
-    memcpy(lamp->name, spec, length);
-    lamp->name[length] = 0;
-    if (!retex_target_name_is_valid(lamp->name))
-        return retex_fail(err, RETEX_EINVAL, "lamp `%s`: a name has letters, digits, spaces and `_-.+()` only", spec);
-    if (strcasecmp(lamp->name, REST) == 0)
+    int code = selector_read_name(lamp->name, "lamp", spec, length, err);
+    if (!code && strcasecmp(lamp->name, REST) == 0)
         return retex_fail(err, RETEX_EINVAL, "lamp `%s`: that is what all other light is called", spec);
-    return RETEX_OK;
+    return code;
 }
 
 static int add_selector(const Scene *scene, Lamp *lamp, LampSelector *selector, const char *text, size_t length,
@@ -279,33 +274,24 @@ static int selects(const LampSelector *selector, const Texture *texture, const O
     return selector->selector.form && selector_matches(&selector->selector, texture, object);
 }
 
-/* The first lamp that was asked for wins. */
-static int lamp_of(const LampSelectors *selectors, const Texture *texture, const ObjectPart *object)
+enum { OF_NO_SOURCE = 0, OF_SKY = -1 };
+
+/* The first lamp that was asked for wins. source: the number of a light source, or of these. */
+static int lamp_of(const LampSelectors *selectors, const Texture *texture, const ObjectPart *object, int source)
 {
     for (int l = 0; l < selectors->nlamps; l++)
-        for (int i = 0; i < selectors->counts[l]; i++)
-            if (selects(&selectors->lists[l][i], texture, object))
+        for (int i = 0; i < selectors->counts[l]; i++) {
+            const LampSelector *one = &selectors->lists[l][i];
+            if (source == OF_SKY ? one->is_sky : (source && one->source == source) || selects(one, texture, object))
                 return l;
+        }
     return -1;
 }
 
 static int lamp_of_source(const LampSelectors *selectors, const Scene *scene, int k)
 {
     const ObjectPart part = {.idents = scene->lights[k].idents, .places = scene->lights[k].places};
-    for (int l = 0; l < selectors->nlamps; l++)
-        for (int i = 0; i < selectors->counts[l]; i++)
-            if (selectors->lists[l][i].source == k + 1 || selects(&selectors->lists[l][i], NULL, &part))
-                return l;
-    return -1;
-}
-
-static int lamp_of_sky(const LampSelectors *selectors)
-{
-    for (int l = 0; l < selectors->nlamps; l++)
-        for (int i = 0; i < selectors->counts[l]; i++)
-            if (selectors->lists[l][i].is_sky)
-                return l;
-    return -1;
+    return lamp_of(selectors, NULL, &part, k + 1);
 }
 
 static int lamp_of_texture(const LampSelectors *selectors, const Texture *texture, const ObjectPart *object)
@@ -313,7 +299,7 @@ static int lamp_of_texture(const LampSelectors *selectors, const Texture *textur
     int lamp = -1;
     for (int k = 0; k < texture_leaf_count(texture) && lamp < 0; k++)
         if (leaf_emits(texture_leaf(texture, k)))
-            lamp = lamp_of(selectors, texture_leaf(texture, k), object);
+            lamp = lamp_of(selectors, texture_leaf(texture, k), object, OF_NO_SOURCE);
     return lamp;
 }
 
@@ -352,7 +338,7 @@ static void mark_instance(Scene *scene, const LampSelectors *selectors, Instance
     instance->lamp = -1;
     if (!instance_emits(scene, instance))
         return;
-    instance->lamp = lamp_of(selectors, NULL, &object);
+    instance->lamp = lamp_of(selectors, NULL, &object, OF_NO_SOURCE);
     if (instance->lamp < 0 && instance->texture)
         instance->lamp = lamp_of_texture(selectors, instance->texture, &object);
     if (instance->lamp < 0)
@@ -366,7 +352,7 @@ static void mark_instance(Scene *scene, const LampSelectors *selectors, Instance
 
 static void mark_sky(Scene *scene, const LampSelectors *selectors, LampColor *colors)
 {
-    const int lamp = lamp_of_sky(selectors);
+    const int lamp = lamp_of(selectors, NULL, NULL, OF_SKY);
     scene->sky_lamp = lamp < 0 ? scene_rest_lamp(scene) : lamp;
     if (lamp < 0)
         return;

@@ -29,7 +29,7 @@ const Texture *primitive_target_texture(const Primitive *p, int target)
     int whole;
     for (int k = 0; (texture = primitive_texture(p, k, &whole)); k++)
         for (int j = 0; j < texture_leaf_count(texture); j++)
-            if ((texture->tree ? texture_leaf_target(texture_leaf(texture, j), whole) : whole) == target)
+            if ((texture->tree ? first_target(texture_leaf(texture, j)->target, whole) : whole) == target)
                 return texture_leaf(texture, j);
     return NULL;
 }
@@ -48,7 +48,7 @@ const Texture *instance_target_texture(const Scene *scene, const Instance *insta
     for (int j = 0; p < end && j < texture_leaf_count(texture); j++) {
         const Texture *leaf = texture_leaf(texture, j);
         const int whole = instance->texture_target;
-        if ((texture->tree ? texture_leaf_target(leaf, whole) : whole) != target)
+        if ((texture->tree ? first_target(leaf->target, whole) : whole) != target)
             continue;
         if (of)
             *of = p;

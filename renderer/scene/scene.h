@@ -154,11 +154,8 @@ typedef struct Scene {
 const Texture *primitive_texture(const Primitive *primitive, int k, int *target);
 /* What people call that identifier: its name of retex_names, where a target can be named so, or itself. */
 const char *scene_name_of(const Scene *scene, const char *ident);
-/* The target of a leaf of a texture that is a target as a whole, or -1: the first that was asked for wins. */
-static inline int texture_leaf_target(const Texture *leaf, int whole)
-{
-    return leaf->target < 0 || (whole >= 0 && whole < leaf->target) ? whole : leaf->target;
-}
+/* Of two targets, or -1, the one that was asked for first: it wins. */
+static inline int first_target(int a, int b) { return a < 0 || (b >= 0 && b < a) ? b : a; }
 /* A plain texture of the primitive that is the target, or NULL. */
 const Texture *primitive_target_texture(const Primitive *primitive, int target);
 /* The same of the instance's own texture and names, and a primitive that has it; of may be NULL. */

@@ -573,3 +573,15 @@ int selector_read(Selector *selector, const Scene *scene, const char *text, Rete
     int code = selector_parse(selector, scene, text, err);
     return code ? code : check_match(selector, scene, err);
 }
+
+int selector_read_name(char name[RETEX_NAME_MAX], const char *what, const char *spec, size_t length, RetexError *err)
+{
+    if (length == 0 || length >= RETEX_NAME_MAX)
+        return retex_fail(err, RETEX_EINVAL, "%s `%s`: a name has 1 to %d bytes", what, spec, RETEX_NAME_MAX - 1);
+    memcpy(name, spec, length);
+    name[length] = 0;
+    if (!retex_target_name_is_valid(name))
+        return retex_fail(err, RETEX_EINVAL, "%s `%s`: a name has letters, digits, spaces and `_-.+()` only", what,
+                          spec);
+    return RETEX_OK;
+}

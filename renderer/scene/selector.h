@@ -56,4 +56,7 @@ int selector_of_color(char text[SELECTOR_MAX], const Texture *texture);
 int selector_of_image(char text[SELECTOR_MAX], const Texture *texture);
 int selector_of_place(char text[SELECTOR_MAX], const PlaceList *place);
 
+/* The name before `=` of what selectors are given for: length bytes of the spec. what: "target", "lamp". */
+int selector_read_name(char name[RETEX_NAME_MAX], const char *what, const char *spec, size_t length, RetexError *err);
+
 #endif

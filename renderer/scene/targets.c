@@ -13,17 +13,6 @@ typedef struct Selectors {
     Selector *lists[RETEX_MAX_TARGETS];
 } Selectors;
 
-static int read_name(Target *target, const char *spec, size_t length, RetexError *err)
-{
-    if (length == 0 || length >= sizeof target->name)
-        return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has 1 to %d bytes", spec, RETEX_NAME_MAX - 1);
-    memcpy(target->name, spec, length);
-    target->name[length] = 0;
-    if (!retex_target_name_is_valid(target->name))
-        return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has letters, digits, spaces and `_-.+()` only", spec);
-    return 0;
-}
-
 static int add_selector(const Scene *scene, Target *target, Selector *selector, const char *text, size_t length,
                         RetexError *err)
 {
@@ -106,7 +95,8 @@ static int read_spec(Scene *scene, Selectors *selectors, int t, const char *spec
     if (!text)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
     const char *equals = strchr(text, '=');
-    int code = read_name(&scene->targets[t], text, equals ? (size_t)(equals - text) : strlen(text), err);
+    const size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    int code = selector_read_name(scene->targets[t].name, "target", text, length, err);
     if (!code)
         code = read_selectors(scene, selectors, t, equals ? equals + 1 : text, err);
     return code ? code : read_options(&scene->targets[t], options, err);

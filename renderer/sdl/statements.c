@@ -57,6 +57,13 @@ static void set(Value *value, ValueKind kind, const void *data)
     value->data = (void *)data; /* immutable from here on, whatever Value's type says */
 }
 
+/* What has no kind of its own is told by its word. */
+static void set_other(Value *value, const char *word, const void *data)
+{
+    set(value, VALUE_OTHER, data);
+    value->word = word;
+}
+
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
@@ -64,8 +71,7 @@ static int declare_ignored(Sdl *sdl, Value *value)
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             skip_statement(sdl);
-            set(value, VALUE_OTHER, NULL);
-            value->word = words[i];
+            set_other(value, words[i], NULL);
             return 1;
         }
     return 0;
@@ -99,19 +105,15 @@ static int declare_map(Sdl *sdl, Value *value)
 {
     if (sdl_accept(sdl, "color_map") || sdl_accept(sdl, "colour_map"))
         set(value, VALUE_COLOR_MAP, parse_color_map(sdl));
-    else if (sdl_accept(sdl, "pigment_map")) {
-        set(value, VALUE_OTHER, parse_pigment_map(sdl));
-        value->word = "pigment_map";
-    } else if (sdl_accept(sdl, "texture_map")) {
-        set(value, VALUE_OTHER, parse_texture_map(sdl));
-        value->word = "texture_map";
-    } else if (sdl_accept(sdl, "normal_map")) {
-        set(value, VALUE_OTHER, parse_normal_map(sdl));
-        value->word = "normal_map";
-    } else if (sdl_accept(sdl, "slope_map")) {
-        set(value, VALUE_OTHER, parse_slope_map(sdl));
-        value->word = "slope_map";
-    } else
+    else if (sdl_accept(sdl, "pigment_map"))
+        set_other(value, "pigment_map", parse_pigment_map(sdl));
+    else if (sdl_accept(sdl, "texture_map"))
+        set_other(value, "texture_map", parse_texture_map(sdl));
+    else if (sdl_accept(sdl, "normal_map"))
+        set_other(value, "normal_map", parse_normal_map(sdl));
+    else if (sdl_accept(sdl, "slope_map"))
+        set_other(value, "slope_map", parse_slope_map(sdl));
+    else
         return 0;
     return 1;
 }
@@ -144,21 +146,22 @@ static int declare_same(Sdl *sdl, Value *value)
     }
 }
 
-static int declare_air(Sdl *sdl, Value *value)
+/* What is around all objects. */
+static int declare_around(Sdl *sdl, Value *value)
 {
-    if (sdl_accept(sdl, "fog")) {
-        set(value, VALUE_OTHER, parse_fog(sdl));
-        value->word = "fog";
-    } else if (sdl_accept(sdl, "rainbow")) {
-        set(value, VALUE_OTHER, parse_rainbow(sdl));
-        value->word = "rainbow";
-    } else if (sdl_accept(sdl, "media")) {
-        set(value, VALUE_OTHER, parse_media(sdl));
-        value->word = "media";
-    } else if (sdl_accept(sdl, "density")) {
-        set(value, VALUE_OTHER, parse_density(sdl));
-        value->word = "density";
-    } else
+    if (sdl_accept(sdl, "fog"))
+        set_other(value, "fog", parse_fog(sdl));
+    else if (sdl_accept(sdl, "rainbow"))
+        set_other(value, "rainbow", parse_rainbow(sdl));
+    else if (sdl_accept(sdl, "media"))
+        set_other(value, "media", parse_media(sdl));
+    else if (sdl_accept(sdl, "density"))
+        set_other(value, "density", parse_density(sdl));
+    else if (sdl_accept(sdl, "camera"))
+        set(value, VALUE_CAMERA, parse_camera(sdl));
+    else if (sdl_accept(sdl, "sky_sphere"))
+        set(value, VALUE_SKY_SPHERE, parse_sky_sphere(sdl));
+    else
         return 0;
     return 1;
 }
@@ -174,16 +177,8 @@ static int declare(Sdl *sdl, Value *value)
         set(value, VALUE_TRANSFORM, transform);
         return 1;
     }
-    if (declare_air(sdl, value))
+    if (declare_around(sdl, value))
         return 1;
-    if (sdl_accept(sdl, "camera")) {
-        set(value, VALUE_CAMERA, parse_camera(sdl));
-        return 1;
-    }
-    if (sdl_accept(sdl, "sky_sphere")) {
-        set(value, VALUE_SKY_SPHERE, parse_sky_sphere(sdl));
-        return 1;
-    }
     const Object *object = accept_object(sdl);
     if (object)
         set(value, object->kind == OBJECT_LIGHT ? VALUE_LIGHT : VALUE_OBJECT, object);

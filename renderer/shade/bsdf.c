@@ -226,11 +226,6 @@ static Split eval_bumped(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
     return sum;
 }
 
-static Split split_scale(Split s, float k)
-{
-    return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)};
-}
-
 static inline Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     if (b->bumped)
@@ -245,7 +240,7 @@ static inline Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pd
 
 static __attribute__((noinline)) Split eval_coating(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
-    Split sum = split_scale(eval_base(b, wi, light, pdf), b->coating.under);
+    Split sum = split_times(eval_base(b, wi, light, pdf), b->coating.under);
     if (vec_dot(wi, b->geometric) > 0)
         sum.i = rgb_add(sum.i, coating_eval(&b->coating, bsdf_coated_normal(b), b->wo, wi, pdf));
     return sum;
@@ -335,7 +330,7 @@ static int sample_highlight(const Bsdf *b, float choice, float u1, float u2, Vec
 static int sample_mirror(const Bsdf *b, BsdfSample *sample)
 {
     sample->wi = reflect(b->wo, b->normal);
-    sample->weight = split_scale(b->mirror, 1 / b->p_mirror);
+    sample->weight = split_times(b->mirror, 1 / b->p_mirror);
     if (vec_dot(sample->wi, b->geometric) <= 0)
         sample->wi = b->bumped ? mirrored(sample->wi, b->geometric) : reflect(b->wo, b->geometric);
     return vec_dot(sample->wi, b->geometric) > 0;
@@ -343,7 +338,7 @@ static int sample_mirror(const Bsdf *b, BsdfSample *sample)
 
 static int sample_passing(const Bsdf *b, BsdfSample *sample)
 {
-    sample->weight = split_scale(b->passing, 1 / b->p_passing);
+    sample->weight = split_times(b->passing, 1 / b->p_passing);
     sample->transmitted = 1;
     if (!b->refracts) {
         sample->wi = vec_neg(b->wo);
@@ -355,7 +350,7 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
         sample->wi = mirrored(sample->wi, b->geometric);
     if (refracted && vec_dot(sample->wi, b->geometric) < 0) {
         /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
-        sample->weight = split_scale(sample->weight, 1 / (b->bend * b->bend));
+        sample->weight = split_times(sample->weight, 1 / (b->bend * b->bend));
         return 1;
     }
     sample->transmitted = 0;
@@ -395,7 +390,7 @@ static inline int take_direction(const Bsdf *b, BsdfSample *sample)
     const Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
     if (sample->pdf <= 0)
         return 0;
-    sample->weight = split_scale(f, 1 / sample->pdf);
+    sample->weight = split_times(f, 1 / sample->pdf);
     return 1;
 }
 

@@ -1,6 +1,5 @@
 /* bump_map: normals from a picture's heights, by POV-Ray's three points and frame (compared with its pictures). */
 #include "shade/normal.h"
-#include "shade/pigment.h"
 #include "shade/pigment_image.h"
 
 static int wrapped(int i, int size)

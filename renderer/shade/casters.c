@@ -1,7 +1,6 @@
 /* See casters.h. */
 #include <math.h>
 #include "shade/casters.h"
-#include "shade/material.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
 #include "shape/surface.h"
@@ -67,10 +66,7 @@ static void find_bounds(Caster *caster, const Primitive *p)
     if (!caster->is_bounded || !caster->instance)
         return;
     caster->low = vec3(INFINITY, INFINITY, INFINITY), caster->high = vec_neg(caster->low);
-    for (int k = 0; k < 8; k++) {
-        const Vec3 corner = vec3(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
-        shape_bound_point(&caster->low, &caster->high, transform_point(&caster->instance->transform, corner));
-    }
+    shape_bound_box(&caster->low, &caster->high, &caster->instance->transform, low, high);
 }
 
 /* Of primitives first to end, those in prototypes only with an instance. *none: 1 where none of them is one, whatever

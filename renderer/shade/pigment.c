@@ -207,8 +207,6 @@ int pigment_is_opaque(const Pigment *pigment)
 
 Vec2 target_uv(const Pigment *pigment, Vec3 p, Vec3 normal, const Vec2 *mapped_uv, const Vec2 *natural)
 {
-    Vec3 n, size;
-
     if (pigment->uv_mapping && mapped_uv) {
         p = transform_inverse_point(&pigment->transform, vec3(mapped_uv->u, mapped_uv->v, 0));
         return (Vec2){p.x, p.y};
@@ -218,9 +216,5 @@ Vec2 target_uv(const Pigment *pigment, Vec3 p, Vec3 normal, const Vec2 *mapped_u
         return pigment_image_uv(pigment->image, p);
     if (natural)
         return *natural;
-    n = transform_inverse_normal(&pigment->transform, normal);
-    size = vec3(fabs(n.x), fabs(n.y), fabs(n.z));
-    if (size.x > size.y && size.x > size.z)
-        return (Vec2){p.z, p.y};
-    return size.y > size.z ? (Vec2){p.x, p.z} : (Vec2){p.x, p.y};
+    return vec_project(p, transform_inverse_normal(&pigment->transform, normal));
 }

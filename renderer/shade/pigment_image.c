@@ -1,5 +1,6 @@
 /* image_map: projections and look-up, as POV-Ray's (measured): UV (0,0) is the lower left corner of the image, texel
  * centres are at (i + 0.5) / width, `interpolate` wraps round the edges and blends numbers of the working space. */
+#include "base/polynomial.h"
 #include "shade/pigment_image.h"
 #include <retex/host/texture_lookup.h>
 
@@ -104,15 +105,6 @@ static Rgbft bilinear(const Pigment *pigment, int i, int j, double x, double y)
     for (int k = 0; k < 4; k++)
         add(&sum, texel(pigment, i + (k & 1), j + (k >> 1)), (k & 1 ? x : 1 - x) * (k >> 1 ? y : 1 - y));
     return sum;
-}
-
-/* Catmull and Rom's cubic through four values, by how far the point is from the second. */
-static void cubic_weights(double t, double weights[4])
-{
-    weights[0] = t * (-0.5 + t * (1 - 0.5 * t));
-    weights[1] = 1 + t * t * (-2.5 + 1.5 * t);
-    weights[2] = t * (0.5 + t * (2 - 1.5 * t));
-    weights[3] = t * t * (-0.5 + 0.5 * t);
 }
 
 static Rgbft bicubic(const Pigment *pigment, int i, int j, double x, double y)

@@ -10,6 +10,7 @@
 typedef struct Split { Rgb d, i; } Split;
 
 static inline Rgb split_apply(Split s, Rgb albedo) { return rgb_add(rgb_mul(s.d, albedo), s.i); }
+static inline Split split_times(Split s, float by) { return (Split){rgb_scale(s.d, by), rgb_scale(s.i, by)}; }
 static inline float split_neutral(Split s) { return rgb_luminance(split_apply(s, rgb_grey(NEUTRAL_ALBEDO))); }
 
 #endif

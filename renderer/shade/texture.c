@@ -1,5 +1,4 @@
 /* See texture.h. */
-#include "shade/material.h"
 #include "shade/pigment.h"
 #include "shade/texture.h"
 

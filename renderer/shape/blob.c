@@ -322,10 +322,8 @@ static void uv(const Surface *surface, ShapeUv *out)
 {
     const Blob *blob = surface->primitive->shape.data;
     const Vec3 middle = vec_scale(vec_add(blob->low, blob->high), 0.5);
-    const Vec3 p = vec_sub(shape_local_point(surface), middle);
 
-    out->natural = (Vec2){shape_turn(p.x, p.z), 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI};
-    out->has_natural = 1;
+    out->natural = shape_angles(vec_sub(shape_local_point(surface), middle));
 }
 
 /* Components share a point as their densities do. */
@@ -353,10 +351,6 @@ static int texture(const Surface *surface)
 const ShapeOps shape_blob = {
     .name = "blob",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
+    SHAPE_BOUNDED,
     .texture = texture,
-    .inside = inside,
 };

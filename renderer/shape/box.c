@@ -30,11 +30,6 @@ static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
         shape_bound_point(low, high, transform_point(&primitive->transform, vertices[i]));
 }
 
-static double along(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 /* The box between its three pairs of planes. A ray that starts on one of them, within rounding, does not meet it. */
 static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
 {
@@ -43,7 +38,7 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
 
     (void)primitive;
     for (int k = 0; k < 3; k++) {
-        double o = along(ray->origin, k), d = along(ray->direction, k);
+        double o = vec_component(ray->origin, k), d = vec_component(ray->direction, k);
         if (d == 0 && (o < 0 || o > 1))
             return 0;
         if (d == 0)
@@ -125,7 +120,7 @@ static void uv(const Surface *surface, ShapeUv *out)
         out->natural = (Vec2){1 - x, y};
         break;
     }
-    out->has_uv = out->has_natural = 1;
+    out->has_uv = 1;
 }
 
 static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
@@ -161,12 +156,6 @@ static double area(const Primitive *primitive)
     return face_areas(&primitive->transform, areas);
 }
 
-static double density(const Primitive *primitive, Vec3 p, int face)
-{
-    (void)p, (void)face;
-    return shape_inverse(area(primitive));
-}
-
 static double sample(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out)
 {
     double areas[3], pick = u1 * face_areas(&primitive->transform, areas), c[3];
@@ -179,21 +168,17 @@ static double sample(const Primitive *primitive, double u1, double u2, int *face
     c[(f / 2 + 2) % 3] = u2;
     *face = f;
     point(primitive, vec3(c[0], c[1], c[2]), f, out);
-    return density(primitive, out->p, f);
+    return shape_even_density(primitive, out->p, f);
 }
 
 const ShapeOps shape_box = {
     .name = "box",
     .properties = SHAPE_UV_NATURAL,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
+    SHAPE_BOUNDED,
     .extent = extent,
-    .inside = inside,
     .area = area,
     .sample = sample,
-    .density = density,
+    .density = shape_even_density,
     .triangles = triangles,
     .face_normal = face_normal,
 };

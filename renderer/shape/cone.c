@@ -112,8 +112,6 @@ static void uv(const Surface *surface, ShapeUv *out)
     const Shape *shape = &surface->primitive->shape;
     Vec3 p = shape_local_point(surface);
 
-    out->has_uv = 0;
-    out->has_natural = 1;
     if (surface->face)
         out->natural = shape_circle_uv(p, surface->face == 1 ? shape->r0 : shape->r1);
     else
@@ -214,13 +212,7 @@ static double sample(const Primitive *primitive, double u1, double u2, int *face
 const ShapeOps shape_cone = {
     .name = "cone",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
+    SHAPE_BOUNDED,
     .extent = extent,
-    .inside = inside,
-    .area = area,
-    .sample = sample,
-    .density = density,
+    SHAPE_SAMPLED,
 };

@@ -43,8 +43,6 @@ Vec2 shape_circle_uv(Vec3 p, double radius)
 static void uv(const Surface *surface, ShapeUv *out)
 {
     out->natural = shape_circle_uv(shape_local_point(surface), surface->primitive->shape.r0);
-    out->has_uv = 0;
-    out->has_natural = 1;
 }
 
 static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
@@ -75,12 +73,6 @@ static double area(const Primitive *primitive)
     return PI * (r0 * r0 - r1 * r1) * shape_stretch(&primitive->transform, vec3(1, 0, 0), vec3(0, 1, 0));
 }
 
-static double density(const Primitive *primitive, Vec3 p, int face)
-{
-    (void)p, (void)face;
-    return shape_inverse(area(primitive));
-}
-
 static double sample(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out)
 {
     double r0 = primitive->shape.r0, r1 = fmin(primitive->shape.r1, r0), angle = 2 * PI * u2;
@@ -88,20 +80,16 @@ static double sample(const Primitive *primitive, double u1, double u2, int *face
 
     *face = 0;
     point(primitive, vec3(radius * cos(angle), radius * sin(angle), 0), 0, out);
-    return density(primitive, out->p, 0);
+    return shape_even_density(primitive, out->p, 0);
 }
 
 const ShapeOps shape_disc = {
     .name = "disc",
     .properties = SHAPE_FLAT,
-    .bounds = bounds,
+    SHAPE_BOUNDED,
     .solid_bounds = solid_bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
     .extent = extent,
-    .inside = inside,
     .area = area,
     .sample = sample,
-    .density = density,
+    .density = shape_even_density,
 };

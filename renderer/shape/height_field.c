@@ -164,10 +164,7 @@ static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
     Vec3 a, b;
 
     local_bounds(primitive->shape.data, &a, &b);
-    for (int i = 0; i < 8; i++)
-        shape_bound_point(
-            low, high,
-            transform_point(&primitive->transform, vec3(i & 1 ? a.x : b.x, i & 2 ? a.y : b.y, i & 4 ? a.z : b.z)));
+    shape_bound_box(low, high, &primitive->transform, a, b);
 }
 
 /* What lies below is inside, without end. */
@@ -233,7 +230,6 @@ static void uv(const Surface *surface, ShapeUv *out)
     const Vec3 p = shape_local_point(surface);
 
     out->natural = (Vec2){p.x, p.z};
-    out->has_natural = 1;
 }
 
 /* All that lies below the surface, however low and under water too, as in POV-Ray. */
@@ -250,10 +246,6 @@ static int inside(const Shape *shape, Vec3 p)
 
 const ShapeOps shape_height_field = {
     .name = "height_field",
-    .bounds = bounds,
+    SHAPE_BOUNDED,
     .solid_bounds = solid_bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
 };

@@ -237,7 +237,6 @@ static void uv(const Surface *surface, ShapeUv *out)
 
     out->natural.u = p.x != 0 || p.z != 0 ? shape_turn(p.x, p.z) : 0;
     out->natural.v = 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI;
-    out->has_natural = 1;
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -310,9 +309,5 @@ long isosurface_learn(Isosurface *iso)
 const ShapeOps shape_isosurface = {
     .name = "isosurface",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -298,18 +298,11 @@ static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
 
 static void uv(const Surface *surface, ShapeUv *out)
 {
-    const Vec3 p = shape_local_point(surface);
-
-    out->natural = (Vec2){shape_turn(p.x, p.z), 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI};
-    out->has_natural = 1;
+    out->natural = shape_angles(shape_local_point(surface));
 }
 
 const ShapeOps shape_julia_fractal = {
     .name = "julia_fractal",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -184,7 +184,7 @@ static void uv(const Surface *surface, ShapeUv *out)
     const double u = profile_nearest(profile, &profile->segments[surface->face], (Vec2){hypot(p.x, p.z), p.y});
 
     out->uv = out->natural = (Vec2){shape_turn(p.x, p.z), (surface->face + u) / profile->count};
-    out->has_uv = out->has_natural = 1;
+    out->has_uv = 1;
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -195,9 +195,5 @@ static int inside(const Shape *shape, Vec3 p)
 const ShapeOps shape_lathe = {
     .name = "lathe",
     .properties = SHAPE_U_PERIODIC | SHAPE_UV_NATURAL,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -276,9 +276,7 @@ const ShapeOps shape_mesh = {
     .uv = uv,
     .inside = inside,
     .texture = texture,
-    .area = area,
-    .sample = sample,
-    .density = density,
+    SHAPE_SAMPLED,
     .triangles = triangles,
     .face_normal = face_normal,
 };

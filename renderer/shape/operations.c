@@ -3,11 +3,6 @@
 #include "shape/shape.h"
 #include "shape/surface.h"
 
-static double largest(Vec3 a)
-{
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
-}
-
 static ShapeRay to_shape(const Primitive *primitive, const Ray *ray)
 {
     const Transform *t = &primitive->transform;
@@ -16,7 +11,7 @@ static ShapeRay to_shape(const Primitive *primitive, const Ray *ray)
                     ray->tmax, 0};
 
     /* The terms of the transform may be much larger than their sum: the error is theirs. */
-    out.slack = 8 * DBL_EPSILON * (largest(out.origin) + largest(shift));
+    out.slack = 8 * DBL_EPSILON * (vec_largest(out.origin) + vec_largest(shift));
     return out;
 }
 

@@ -80,15 +80,12 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
     const double size = shape->r0 + shape->r1, wide = 1.01 * fmax(arc.radius - arc.ring, fmax(shape->r0, shape->r1));
     ShapeLine line = shape_line(ray, vec3(0, shape->r1 / 2, 0));
     ShapeCrossings crossings = shape_crossings(ray);
-    double low = -INFINITY, high = INFINITY, s[2];
+    double low = -INFINITY, high = INFINITY;
 
     if (!shape_line_clip(&line, vec3(-wide, -1.01 * shape->r0, -wide), vec3(wide, 1.01 * size, wide), &low, &high))
         return 0;
-    if (!shape_convex_crossings(shape, distance, &line, low, high, s))
-        return 0;
-    shape_add_crossing(&crossings, shape_line_t(&line, s[0]), 0);
-    shape_add_crossing(&crossings, shape_line_t(&line, s[1]), 0);
-    return shape_crossings_end(&crossings, primitive, size, t, face);
+    return shape_add_convex(&crossings, shape, distance, &line, low, high) &&
+           shape_crossings_end(&crossings, primitive, size, t, face);
 }
 
 static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
@@ -103,10 +100,8 @@ static void uv(const Surface *surface, ShapeUv *out)
 {
     Vec3 p = shape_local_point(surface);
 
-    out->has_uv = 0;
-    out->has_natural = 1;
-    out->natural =
-        (Vec2){shape_turn(p.x, p.z), 0.5 + atan2(p.y - surface->primitive->shape.r1 / 2, hypot(p.x, p.z)) / PI};
+    p.y -= surface->primitive->shape.r1 / 2;
+    out->natural = shape_angles(p);
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -119,9 +114,5 @@ static int inside(const Shape *shape, Vec3 p)
 const ShapeOps shape_ovus = {
     .name = "ovus",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -36,10 +36,7 @@ static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
     Vec3 a, b;
 
     box_of(&primitive->shape, &a, &b);
-    for (int i = 0; i < 8; i++)
-        shape_bound_point(
-            low, high,
-            transform_point(&primitive->transform, vec3(i & 1 ? a.x : b.x, i & 2 ? a.y : b.y, i & 4 ? a.z : b.z)));
+    shape_bound_box(low, high, &primitive->transform, a, b);
 }
 
 /* Sides: seen along the sweep, the line is a line in the curve's plane. */
@@ -140,8 +137,6 @@ static void uv(const Surface *surface, ShapeUv *out)
     Vec2 at = {k != 0 ? p.x / k : 0, k != 0 ? p.z / k : 0};
     int i = surface->face - 2;
 
-    out->has_uv = 0;
-    out->has_natural = 1;
     if (i < 0)
         out->natural = (Vec2){(at.u - profile->low.u) / (profile->high.u - profile->low.u),
                               (at.v - profile->low.v) / (profile->high.v - profile->low.v)};
@@ -161,9 +156,5 @@ static int inside(const Shape *shape, Vec3 p)
 
 const ShapeOps shape_prism = {
     .name = "prism",
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -10,6 +10,17 @@ double shape_turn(double x, double y)
     return turn < 0 ? turn + 1 : turn;
 }
 
+Vec2 shape_angles(Vec3 p)
+{
+    return (Vec2){shape_turn(p.x, p.z), 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI};
+}
+
+double shape_even_density(const Primitive *primitive, Vec3 p, int face)
+{
+    (void)p, (void)face;
+    return shape_inverse(primitive->shape.ops->area(primitive));
+}
+
 ShapeLine shape_line(const ShapeRay *ray, Vec3 centre)
 {
     double length = vec_length(ray->direction), shift;
@@ -98,12 +109,16 @@ static int approach(const Shape *shape, ShapeConvex *f, const ShapeLine *line, d
     return 1;
 }
 
-int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low, double high,
-                           double s[2])
+int shape_add_convex(ShapeCrossings *crossings, const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low,
+                     double high)
 {
-    s[0] = low;
-    s[1] = high;
-    return approach(shape, f, line, &s[0], high, 1) && approach(shape, f, line, &s[1], s[0], -1) && s[0] < s[1];
+    double s[2] = {low, high};
+
+    if (!approach(shape, f, line, &s[0], high, 1) || !approach(shape, f, line, &s[1], s[0], -1) || !(s[0] < s[1]))
+        return 0;
+    for (int i = 0; i < 2; i++)
+        shape_add_crossing(crossings, shape_line_t(line, s[i]), 0);
+    return 1;
 }
 
 double shape_share(Vec3 position)
@@ -122,8 +137,14 @@ double shape_share(Vec3 position)
 
 void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p)
 {
-    *low = vec3(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
-    *high = vec3(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
+    *low = vec_min(*low, p), *high = vec_max(*high, p);
+}
+
+void shape_bound_box(Vec3 *low, Vec3 *high, const Transform *t, Vec3 from, Vec3 to)
+{
+    for (int i = 0; i < 8; i++)
+        shape_bound_point(
+            low, high, transform_point(t, vec3(i & 1 ? to.x : from.x, i & 2 ? to.y : from.y, i & 4 ? to.z : from.z)));
 }
 
 void shape_bound_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius,

@@ -65,7 +65,7 @@ struct ShapeOps {
     int (*intersect)(const Primitive *primitive, const ShapeRay *ray, double *t, int *face);
     /* The point of the face next to p, which is near the surface, in canonical space. */
     void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
-    void (*uv)(const Surface *surface, ShapeUv *out);
+    void (*uv)(const Surface *surface, ShapeUv *out); /* out->has_uv is 0 before, has_natural 1 */
     /* How long the face's natural UV are, on a primitive whose canonical axes are these in the world. */
     void (*extent)(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out);
     /* Which of the shape's textures the surface has where it is; -1: the primitive's own. Asked where there are any.
@@ -83,6 +83,10 @@ struct ShapeOps {
     void (*triangles)(const Shape *shape, ShapeTriangles *out);
     Vec3 (*face_normal)(const Primitive *primitive, int face, const Vec3 corner[3]);
 };
+
+/* What the rows of most shapes have, for files whose functions are called as the operations are; and of emitters. */
+#define SHAPE_BOUNDED .bounds = bounds, .intersect = intersect, .point = point, .uv = uv, .inside = inside
+#define SHAPE_SAMPLED .area = area, .sample = sample, .density = density
 
 /* World space from canonical space, and the face's texture and target. Leaves backside 0. */
 void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point);
@@ -162,15 +166,17 @@ int shape_crossings_end(const ShapeCrossings *crossings, const Primitive *primit
 
 /* A function that is convex, negative inside and positive outside, grows with distance by its gradient. */
 typedef double ShapeConvex(const Shape *shape, Vec3 p, Vec3 *gradient);
-/* Where the line enters and leaves; low and high lie outside. 0 where it misses. */
-int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low, double high,
-                           double s[2]);
+/* Add where the line enters and leaves; low and high lie outside. 0 where it misses. */
+int shape_add_convex(ShapeCrossings *crossings, const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low,
+                     double high);
 
 /* A number in 0..1 that a position always has, and that tells nothing of those of others. */
 double shape_share(Vec3 position);
 
 /* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
 double shape_turn(double x, double y);
+/* The natural parametrisation of a round body about the origin: u about y from x, v from below, by the angles of p. */
+Vec2 shape_angles(Vec3 p);
 
 /* A ring in the plane z = height, and the natural parametrisation of a circle about z. */
 int shape_intersect_ring(const ShapeRay *ray, double height, double outer, double inner, double *t);
@@ -179,6 +185,7 @@ Vec2 shape_circle_uv(Vec3 p, double radius);
 /* Widen low..high. A ball of radius ball is swept along an ellipse: the image of the circle of the given radius about
  * centre whose axes are canonical axes i and j. */
 void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p);
+void shape_bound_box(Vec3 *low, Vec3 *high, const Transform *t, Vec3 from, Vec3 to);
 void shape_bound_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius,
                         double ball);
 
@@ -186,6 +193,8 @@ static inline double shape_inverse(double area)
 {
     return area > 0 ? 1 / area : 0;
 }
+/* The density of a shape that is sampled uniformly in the world: an operation. */
+double shape_even_density(const Primitive *primitive, Vec3 p, int face);
 /* Area in the world of a unit square in canonical space with edges e and f. */
 double shape_stretch(const Transform *t, Vec3 e, Vec3 f);
 Vec3 shape_axis(const Transform *t, int i); /* the image of a canonical axis */

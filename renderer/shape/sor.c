@@ -194,7 +194,7 @@ static void uv(const Surface *surface, ShapeUv *out)
     if (face < 2)
         out->uv.v = face ? 1 - share : share;
     out->natural = face < 2 ? shape_circle_uv(vec3(p.x, p.z, 0), radius) : out->uv;
-    out->has_uv = out->has_natural = 1;
+    out->has_uv = 1;
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -210,9 +210,5 @@ static int inside(const Shape *shape, Vec3 p)
 const ShapeOps shape_sor = {
     .name = "sor",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -41,7 +41,7 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->uv.u = rho > 0 ? shape_turn(p.x, p.z) : 0;
     out->uv.v = 0.5 + atan2(p.y, rho) / PI;
     out->natural = out->uv;
-    out->has_uv = out->has_natural = 1;
+    out->has_uv = 1;
 }
 
 static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
@@ -113,13 +113,7 @@ static double density(const Primitive *primitive, Vec3 p, int face)
 const ShapeOps shape_sphere = {
     .name = "sphere",
     .properties = SHAPE_U_PERIODIC | SHAPE_UV_NATURAL,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
+    SHAPE_BOUNDED,
     .extent = extent,
-    .inside = inside,
-    .area = area,
-    .sample = sample,
-    .density = density,
+    SHAPE_SAMPLED,
 };

@@ -29,11 +29,6 @@ static double radius_at(const SweepSegment *s, double u)
 
 /* ---- bounds ---- */
 
-static double coordinate(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 /* The largest value along a row of a transform, of the centre and the radius times the row's length. */
 static double support(const SphereSweep *sweep, const SweepSegment *s, Vec3 row)
 {
@@ -289,8 +284,6 @@ static void uv(const Surface *surface, ShapeUv *out)
     across = vec_cross(along, up);
     p = vec_sub(p, centre_at(s, u));
     out->natural = (Vec2){(surface->face + u) / sweep->count, shape_turn(vec_dot(p, up), vec_dot(p, across))};
-    out->has_natural = 1;
-    out->has_uv = 0;
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -302,7 +295,8 @@ static int inside(const Shape *shape, Vec3 p)
         double square;
         int within = 1;
         for (int k = 0; k < 3; k++)
-            within &= coordinate(p, k) >= coordinate(s->low, k) && coordinate(p, k) <= coordinate(s->high, k);
+            within &= vec_component(p, k) >= vec_component(s->low, k) &&
+                      vec_component(p, k) <= vec_component(s->high, k);
         if (!within)
             continue;
         deepest(sweep, s, p, &square);
@@ -315,9 +309,5 @@ static int inside(const Shape *shape, Vec3 p)
 const ShapeOps shape_sphere_sweep = {
     .name = "sphere_sweep",
     .properties = SHAPE_V_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -102,8 +102,7 @@ static void search(const Hollow *hollow, double a, double b, int depth)
 {
     Vec3 p = absolute(vec_mad(hollow->line->origin, hollow->line->direction, a)),
          q = absolute(vec_mad(hollow->line->origin, hollow->line->direction, b)), gradient;
-    Vec3 least = vec3(fmin(p.x, q.x), fmin(p.y, q.y), fmin(p.z, q.z)),
-         most = vec3(fmax(p.x, q.x), fmax(p.y, q.y), fmax(p.z, q.z));
+    Vec3 least = vec_min(p, q), most = vec_max(p, q);
 
     if (value(hollow->shape, least, &gradient) > 0 || value(hollow->shape, most, &gradient) < 0)
         return;
@@ -145,20 +144,16 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
     const Vec3 corner = vec3(1.001, 1.001, 1.001);
     ShapeLine line = shape_line(ray, vec3(0, 0, 0));
     ShapeCrossings crossings = shape_crossings(ray);
-    double low = -INFINITY, high = INFINITY, s[2];
+    double low = -INFINITY, high = INFINITY;
 
     if (!shape_line_clip(&line, vec_neg(corner), corner, &low, &high))
         return 0;
     if (shape_line_t(&line, high) <= ray->tmin || shape_line_t(&line, low) >= ray->tmax)
         return 0;
-    if (!is_convex(&primitive->shape)) {
+    if (!is_convex(&primitive->shape))
         hollow_crossings(&(Hollow){&primitive->shape, &line, &crossings}, low, high);
-    } else {
-        if (!shape_convex_crossings(&primitive->shape, value, &line, low, high, s))
-            return 0;
-        shape_add_crossing(&crossings, shape_line_t(&line, s[0]), 0);
-        shape_add_crossing(&crossings, shape_line_t(&line, s[1]), 0);
-    }
+    else if (!shape_add_convex(&crossings, &primitive->shape, value, &line, low, high))
+        return 0;
     return shape_crossings_end(&crossings, primitive, 1, t, face);
 }
 
@@ -176,9 +171,7 @@ static void uv(const Surface *surface, ShapeUv *out)
 {
     Vec3 p = shape_local_point(surface);
 
-    out->has_uv = 0;
-    out->has_natural = 1;
-    out->natural = (Vec2){shape_turn(p.x, p.y), 0.5 + atan2(p.z, hypot(p.x, p.y)) / PI};
+    out->natural = shape_angles(vec3(p.x, p.z, p.y));
 }
 
 static int inside(const Shape *shape, Vec3 p)
@@ -191,9 +184,5 @@ static int inside(const Shape *shape, Vec3 p)
 const ShapeOps shape_superellipsoid = {
     .name = "superellipsoid",
     .properties = SHAPE_U_PERIODIC,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -3,12 +3,6 @@
 #include "shape/shape.h"
 #include "shape/surface.h"
 
-/* Of two, the one that was asked for first. */
-static int first_target(int a, int b)
-{
-    return a < 0 || (b >= 0 && b < a) ? b : a;
-}
-
 /* The texture and target there. All else of the surface but the side it is seen from is set. */
 static void set_material(Surface *surface)
 {
@@ -131,7 +125,7 @@ void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit 
 SurfaceUv surface_uv(const Surface *surface)
 {
     const ShapeOps *ops = surface->primitive->shape.ops;
-    ShapeUv of = {{0, 0}, {0, 0}, 0, 0};
+    ShapeUv of = {.has_natural = ops->uv != NULL};
 
     if (ops->uv)
         ops->uv(surface, &of);

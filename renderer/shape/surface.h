@@ -44,6 +44,12 @@ int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tang
 /* How u and v grow with a step in the world: their changes are the dot products. The gradients lie in the surface. 0
  * where there are no UV. */
 int surface_uv_gradients(const Surface *surface, int second, Vec3 *of_u, Vec3 *of_v);
+/* From one side to the other; UV that go round begin again somewhere. */
+static inline double uv_difference(double after, double before)
+{
+    const double d = after - before;
+    return fabs(d) > 0.5 && fabs(d) <= 1 ? d - copysign(1, d) : d;
+}
 /* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */
 void surface_turn(Surface *surface, int backside);
 

@@ -146,13 +146,6 @@ static Vec2 uv_near(const Surface *surface, Vec3 p, Vec3 step)
     return surface_uv(&near).uv;
 }
 
-/* From one side to the other; UV that go round begin again somewhere. */
-static double difference(double after, double before)
-{
-    const double d = after - before;
-    return fabs(d) > 0.5 && fabs(d) <= 1 ? d - copysign(1, d) : d;
-}
-
 /* By differences over the plane that touches the shape. */
 static int shape_directions(const Surface *surface, Vec3 normal, Vec3 *along_u, Vec3 *along_v)
 {
@@ -163,8 +156,8 @@ static int shape_directions(const Surface *surface, Vec3 normal, Vec3 *along_u, 
     const double step = 1e-4 * vec_length(transform_vector(t, vec_normalize(transform_inverse_vector(t, s))));
     const Vec2 s0 = uv_near(surface, p, vec_scale(s, -step)), s1 = uv_near(surface, p, vec_scale(s, step)),
                r0 = uv_near(surface, p, vec_scale(r, -step)), r1 = uv_near(surface, p, vec_scale(r, step));
-    const double us = difference(s1.u, s0.u), vs = difference(s1.v, s0.v), ur = difference(r1.u, r0.u),
-                 vr = difference(r1.v, r0.v), det = us * vr - vs * ur;
+    const double us = uv_difference(s1.u, s0.u), vs = uv_difference(s1.v, s0.v), ur = uv_difference(r1.u, r0.u),
+                 vr = uv_difference(r1.v, r0.v), det = us * vr - vs * ur;
     if (!(fabs(det) > 1e-12 * (us * us + vs * vs + ur * ur + vr * vr)))
         return 0;
     const double sign = det < 0 ? -1 : 1;
@@ -234,7 +227,7 @@ static int shape_gradients(const Surface *surface, Vec3 *of_u, Vec3 *of_v)
         step[k] = 1e-4 * vec_length(transform_vector(t, vec_normalize(transform_inverse_vector(t, along))));
         const Vec2 before = uv_near(surface, p, vec_scale(along, -step[k])),
                    after = uv_near(surface, p, vec_scale(along, step[k]));
-        du[k] = difference(after.u, before.u), dv[k] = difference(after.v, before.v);
+        du[k] = uv_difference(after.u, before.u), dv[k] = uv_difference(after.v, before.v);
     }
     const Vec3 e1 = to_world(surface, vec_scale(s, 2 * step[0])), e2 = to_world(surface, vec_scale(r, 2 * step[1]));
     *of_u = gradient(e1, e2, du[0], du[1]);

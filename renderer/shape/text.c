@@ -238,7 +238,6 @@ static void uv(const Surface *surface, ShapeUv *out)
     const Glyph *glyph = shape->data;
     const Vec3 p = shape_local_point(surface);
 
-    out->has_natural = 1;
     if (surface->face < 2) {
         const int seen_from_below = (surface->face == 0) == (shape->r0 > 0);
         out->natural = (Vec2){seen_from_below ? p.x : -p.x, p.y};
@@ -255,9 +254,5 @@ static int inside(const Shape *shape, Vec3 p)
 
 const ShapeOps shape_text = {
     .name = "text",
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
-    .inside = inside,
+    SHAPE_BOUNDED,
 };

@@ -209,7 +209,7 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->uv.u = rho > 0 ? shape_turn(-p.x, p.z) : 0;
     out->uv.v = 0.5 + atan2(p.y, rho - surface->primitive->shape.r0) / (2 * PI);
     out->natural = out->uv;
-    out->has_uv = out->has_natural = 1;
+    out->has_uv = 1;
 }
 
 static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
@@ -281,13 +281,7 @@ static double sample(const Primitive *primitive, double u1, double u2, int *face
 const ShapeOps shape_torus = {
     .name = "torus",
     .properties = SHAPE_U_PERIODIC | SHAPE_V_PERIODIC | SHAPE_UV_NATURAL,
-    .bounds = bounds,
-    .intersect = intersect,
-    .point = point,
-    .uv = uv,
+    SHAPE_BOUNDED,
     .extent = extent,
-    .inside = inside,
-    .area = area,
-    .sample = sample,
-    .density = density,
+    SHAPE_SAMPLED,
 };

@@ -1,6 +1,7 @@
 /* Checks of a shape's operations: marching along rays with bisection, and sides of the surface. */
 #include <math.h>
 #include "lib_implicit.h"
+#include "shape/surface.h"
 
 enum { STEPS = 3000, MOST = 128 };
 

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 enum { TEST_CROSSINGS = 1024, TEST_SAMPLES = 400 };
 

@@ -27,8 +27,8 @@ static Caustics *make_guide(const Scene *scene, int nthreads)
     Lights *lights;
     assert_int_equal(accel_create(&accel, scene, nthreads, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
-    assert_int_equal(
-        caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1 << 20, nthreads, NULL, NULL), 0);
+    const PhotonSources sources = {.scene = scene, .accel = accel, .lights = lights, .paths = 1 << 20};
+    assert_int_equal(caustics_create(&caustics, &sources, CAUSTICS_OF_EMITTERS, nthreads, NULL), 0);
     lights_close(&lights);
     accel_close(&accel);
     return caustics;
@@ -47,8 +47,8 @@ static void budget_ends_it(void **state)
     retex_budget_stop(budget);
     assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1L << 40, 2, budget, NULL),
-                     RETEX_ESTOPPED);
+    const PhotonSources sources = {scene, accel, lights, 1L << 40, budget, 0};
+    assert_int_equal(caustics_create(&caustics, &sources, CAUSTICS_OF_EMITTERS, 2, NULL), RETEX_ESTOPPED);
     assert_null(caustics);
     lights_close(&lights);
     accel_close(&accel);

@@ -9,6 +9,7 @@
 #include "film/footprints/footprints.h"
 #include "film/paper/paper.h"
 #include "path/internal.h"
+#include "path/path.h"
 
 /* A film of one pixel and one path, whose target is called Floor. */
 typedef struct Fixture {

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "shape/shape.h"
+#include "shape/surface.h"
 
 static uint64_t seed = 1;
 

@@ -3,6 +3,7 @@
 #include "lib_scene_text.h"
 #include "lib_shape.h"
 #include "shape/blob.h"
+#include "shape/surface.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 #include "lib_implicit.h"
 #include <math.h>
 #include "lib_scene_text.h"
+#include "shape/surface.h"
 
 static uint32_t state = 5;
 

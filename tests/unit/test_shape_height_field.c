@@ -3,6 +3,7 @@
 #include "lib_scene_text.h"
 #include "lib_shape.h"
 #include "shape/height_field.h"
+#include "shape/surface.h"
 
 #include <retex/image_file.h>
 #include <stdio.h>

@@ -6,6 +6,7 @@
 #include <time.h>
 #include "lib_scene_text.h"
 #include "shape/isosurface.h"
+#include "shape/surface.h"
 
 static uint32_t state = 5;
 

@@ -2,6 +2,7 @@
  * against inside(). */
 #include "lib_scene_text.h"
 #include "lib_shape.h"
+#include "shape/surface.h"
 
 #include <stdio.h>
 #include <string.h>

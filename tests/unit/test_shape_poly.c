@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include "shape/poly.h"
 #include "lib_scene_text.h"
+#include "shape/surface.h"
 
 static uint32_t state = 3;
 

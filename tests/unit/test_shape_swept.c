@@ -3,6 +3,7 @@
 #include "lib_implicit.h"
 #include <math.h>
 #include "lib_scene_text.h"
+#include "shape/surface.h"
 
 enum { SAMPLES = 256, CURVES = 12 };
 

@@ -2,6 +2,7 @@
  * max_extent), crossings against inside(), and fonts that are damaged. */
 #include "lib_scene_text.h"
 #include "lib_shape.h"
+#include "shape/surface.h"
 #include "shape/text.h"
 
 #include <stdio.h>

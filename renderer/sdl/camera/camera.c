@@ -133,7 +133,7 @@ static void parse_mesh_camera(Sdl *sdl, Reading *r)
         const Object *object = accept_object(sdl);
         if (object->kind != OBJECT_SHAPE || !object->shape.mesh)
             sdl_error(sdl, "a mesh_camera needs meshes with triangles");
-        meshes = builder_grow(sdl, meshes, mesh->nmeshes, &capacity, sizeof *meshes);
+        meshes = sdl_grow(sdl, meshes, mesh->nmeshes, &capacity, sizeof *meshes);
         meshes[mesh->nmeshes++] = (CameraMesh){.mesh = object->shape.mesh, .transform = object->transform};
     }
     mesh->smooth = sdl_accept(sdl, "smooth");

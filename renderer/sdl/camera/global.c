@@ -50,7 +50,7 @@ static void parse_names(Sdl *sdl)
         SceneName name;
         name.ident = sdl_string(sdl);
         name.name = sdl_string(sdl);
-        scene->names = builder_grow(sdl, scene->names, scene->nnames, &global->name_capacity, sizeof *scene->names);
+        scene->names = sdl_grow(sdl, scene->names, scene->nnames, &global->name_capacity, sizeof *scene->names);
         scene->names[scene->nnames++] = name;
         sdl_optional_comma(sdl);
     }

@@ -156,8 +156,7 @@ void declare_run(Sdl *sdl, int local)
 {
     int frame = sdl->nframes, needs_semicolon;
     Place place = left_side(sdl);
-    if (!sdl_raw_accept(sdl, '='))
-        sdl_expected(sdl, "`=`");
+    sdl_raw_expect(sdl, '=');
     int outer = place.word->declaring;
     place.word->declaring = place.line;
     sdl->declarations++;
@@ -200,7 +199,7 @@ void declare_undef(Sdl *sdl)
     sdl_raw_accept(sdl, ';');
 }
 
-int declare_is_defined(Sdl *sdl)
+static int name_is_defined(Sdl *sdl)
 {
     const Raw *raw = sdl_raw(sdl);
     if (raw->kind == RAW_END)
@@ -212,4 +211,12 @@ int declare_is_defined(Sdl *sdl)
     if (brackets)
         sdl_error(sdl, "`%s` is no array", raw->kind == RAW_WORD ? raw->as.word->text : "this");
     return symbol && (symbol->macro || symbol->handle || is_definition(symbol->value));
+}
+
+int declare_is_defined(Sdl *sdl)
+{
+    sdl_raw_expect(sdl, '(');
+    const int is_defined = name_is_defined(sdl);
+    sdl_raw_expect(sdl, ')');
+    return is_defined;
 }

@@ -50,16 +50,6 @@ static int condition(Sdl *sdl)
     return value != 0;
 }
 
-static int defined_condition(Sdl *sdl)
-{
-    if (!sdl_raw_accept(sdl, '('))
-        sdl_expected(sdl, "`(`");
-    int is_defined = declare_is_defined(sdl);
-    if (!sdl_raw_accept(sdl, ')'))
-        sdl_expected(sdl, "`)`");
-    return is_defined;
-}
-
 /* #if, #ifdef, #ifndef and #elseif: evaluate the condition, then enter the branch or continue with the next one. */
 static void run_if(Sdl *sdl, const Raw *raw)
 {
@@ -69,7 +59,7 @@ static void run_if(Sdl *sdl, const Raw *raw)
         int id = raw->as.directive.id;
         int taken =
             id == DIR_ELSE || id == DIR_END ||
-            (id == DIR_IFDEF || id == DIR_IFNDEF ? defined_condition(sdl) == (id == DIR_IFDEF) : condition(sdl));
+            (id == DIR_IFDEF || id == DIR_IFNDEF ? declare_is_defined(sdl) == (id == DIR_IFDEF) : condition(sdl));
         if (taken)
             return;
         raw = token_at(sdl, next);
@@ -108,8 +98,7 @@ static void run_for(Sdl *sdl, const Raw *raw)
 {
     check_end(sdl, raw);
     int frame = sdl->nframes;
-    if (!sdl_raw_accept(sdl, '('))
-        sdl_expected(sdl, "`(`");
+    sdl_raw_expect(sdl, '(');
     const Raw *name = sdl_raw(sdl);
     if (name->kind != RAW_WORD || name->as.word->reserved)
         sdl_error(sdl, "expected the name of #for's variable");

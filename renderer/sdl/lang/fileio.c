@@ -116,8 +116,7 @@ static Value read_value(Sdl *sdl, FileHandle *handle)
  * ends. */
 void file_read(Sdl *sdl)
 {
-    if (!sdl_raw_accept(sdl, '('))
-        sdl_expected(sdl, "`(`");
+    sdl_raw_expect(sdl, '(');
     Symbol *symbol;
     FileHandle *handle = handle_argument(sdl, &symbol);
     if (!handle->input)
@@ -140,8 +139,7 @@ void file_read(Sdl *sdl)
         Value value = at_end ? (Value){.kind = VALUE_FLOAT, .count = 1} : read_value(sdl, handle);
         *target = value;
     }
-    if (!sdl_raw_accept(sdl, ')'))
-        sdl_expected(sdl, "`)`");
+    sdl_raw_expect(sdl, ')');
     if (handle->input && handle->input->tokens[handle->pos].kind == RAW_END)
         close_handle(sdl, symbol);
 }
@@ -187,8 +185,7 @@ static void write_number(Sdl *sdl, MemoryFile *file)
 
 void file_write(Sdl *sdl)
 {
-    if (!sdl_raw_accept(sdl, '('))
-        sdl_expected(sdl, "`(`");
+    sdl_raw_expect(sdl, '(');
     Symbol *symbol;
     FileHandle *handle = handle_argument(sdl, &symbol);
     if (!handle->output)

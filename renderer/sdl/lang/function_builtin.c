@@ -8,66 +8,71 @@
 #include "function/function.h"
 #include "sdl/lang/internal.h"
 
+/* Constants by name, and what each is. */
+#define CONSTANTS(X)                                                                                                   \
+    X(x, unit(0, 3))                                                                                                   \
+    X(y, unit(1, 3))                                                                                                   \
+    X(z, unit(2, 3))                                                                                                   \
+    X(t, unit(3, 4))                                                                                                   \
+    X(u, unit(0, 2))                                                                                                   \
+    X(v, unit(1, 2))                                                                                                   \
+    X(pi, num_float(PI))                                                                                               \
+    X(tau, num_float(2 * PI))                                                                                          \
+    X(true, num_float(1))                                                                                              \
+    X(yes, num_float(1))                                                                                               \
+    X(on, num_float(1))                                                                                                \
+    X(false, num_float(0))                                                                                             \
+    X(no, num_float(0))                                                                                                \
+    X(off, num_float(0))                                                                                               \
+    X(clock, num_of_frame(sdl, READ_CLOCK, sdl->clock))                                                                \
+    X(clock_delta, num_float(sdl->clock_delta))                                                                        \
+    X(clock_on, num_float(sdl->clock_on))                                                                              \
+    X(image_width, num_float(sdl->options.width ? sdl->options.width : 640))                                           \
+    X(image_height, num_float(sdl->options.height ? sdl->options.height : 480))                                        \
+    X(frame_number, num_of_frame(sdl, READ_FRAME_NUMBER, sdl->frame_number))                                           \
+    X(initial_frame, num_float(sdl->initial_frame))                                                                    \
+    X(final_frame, num_float(sdl->final_frame))                                                                        \
+    X(initial_clock, num_float(sdl->initial_clock))                                                                    \
+    X(final_clock, num_float(sdl->final_clock))                                                                        \
+    X(now, num_float(now()))                                                                                           \
+    X(version, num_float(sdl->version))
+/* The same of functions with arguments of other types than numbers. */
+#define NUMBERS(X)                                                                                                     \
+    X(asc, num_float((unsigned char)*sdl_string(sdl)))                                                                 \
+    X(defined, num_float(declare_is_defined(sdl)))                                                                     \
+    X(dimensions, num_float(array_argument(sdl)->dimensions))                                                          \
+    X(dimension_size, num_float(dimension_size(sdl)))                                                                  \
+    X(file_exists, num_float(file_exists(sdl)))                                                                        \
+    X(inside, num_float(is_inside(sdl)))                                                                               \
+    X(rand, num_float(next_random(sdl, expression_parameter(sdl))))                                                    \
+    X(seed, num_float(seed(sdl, expression_parameter(sdl))))                                                           \
+    X(strcmp, num_float(compare_strings(sdl)))                                                                         \
+    X(strlen, num_float((double)strlen(sdl_string(sdl))))                                                              \
+    X(val, num_float(value_of(sdl)))                                                                                   \
+    X(vdot, num_float(dot(sdl)))                                                                                       \
+    X(vlength, num_float(vector_length(sdl)))                                                                          \
+    X(vaxis_rotate, rotation(sdl, 1))                                                                                  \
+    X(vcross, num_vector(cross(sdl)))                                                                                  \
+    X(vnormalize, num_vector(vec_normalize(vector_argument(sdl, NULL))))                                               \
+    X(vrotate, rotation(sdl, 0))                                                                                       \
+    X(vturbulence, turbulence(sdl))                                                                                    \
+    X(min_extent, extent(sdl, 0))                                                                                      \
+    X(max_extent, extent(sdl, 1))                                                                                      \
+    X(trace, trace(sdl))
+
 enum {
-    /* constants */
-    ID_X,
-    ID_Y,
-    ID_Z,
-    ID_T,
-    ID_U,
-    ID_V,
-    ID_PI,
-    ID_TAU,
-    ID_TRUE,
-    ID_FALSE,
-    ID_CLOCK,
-    ID_CLOCK_DELTA,
-    ID_CLOCK_ON,
-    ID_IMAGE_WIDTH,
-    ID_IMAGE_HEIGHT,
-    ID_FRAME_NUMBER,
-    ID_INITIAL_FRAME,
-    ID_FINAL_FRAME,
-    ID_INITIAL_CLOCK,
-    ID_FINAL_CLOCK,
-    ID_NOW,
-    ID_VERSION,
-    /* functions with arguments of other types */
-    ID_ASC,
-    ID_DEFINED,
-    ID_DIMENSIONS,
-    ID_DIMENSION_SIZE,
-    ID_FILE_EXISTS,
-    ID_INSIDE,
-    ID_RAND,
-    ID_SEED,
-    ID_STRCMP,
-    ID_STRLEN,
-    ID_VAL,
-    ID_VDOT,
-    ID_VLENGTH,
-    ID_VAXIS_ROTATE,
-    ID_VCROSS,
-    ID_VNORMALIZE,
-    ID_VROTATE,
-    ID_VTURBULENCE,
-    ID_MIN_EXTENT,
-    ID_MAX_EXTENT,
-    ID_TRACE
+#define X(name, value) CONSTANT_##name,
+    CONSTANTS(X)
+#undef X
+#define X(name, value) NUMBER_##name,
+    NUMBERS(X)
+#undef X
 };
 
 enum { ANY = 64 };
-#define CONSTANT(name, id)                                                                                             \
-    {                                                                                                                  \
-        name, BUILTIN_CONSTANT, id, 0, 0                                                                               \
-    }
 #define FLOAT(name, id, min, max)                                                                                      \
     {                                                                                                                  \
         name, BUILTIN_FLOAT, id, min, max                                                                              \
-    }
-#define NUMBER(name, id)                                                                                               \
-    {                                                                                                                  \
-        name, BUILTIN_NUMBER, id, 0, 0                                                                                 \
     }
 #define COLOR(name)                                                                                                    \
     {                                                                                                                  \
@@ -79,32 +84,12 @@ enum { ANY = 64 };
     }
 
 const Builtin builtins[] = {
-    CONSTANT("x", ID_X),
-    CONSTANT("y", ID_Y),
-    CONSTANT("z", ID_Z),
-    CONSTANT("t", ID_T),
-    CONSTANT("u", ID_U),
-    CONSTANT("v", ID_V),
-    CONSTANT("pi", ID_PI),
-    CONSTANT("tau", ID_TAU),
-    CONSTANT("true", ID_TRUE),
-    CONSTANT("yes", ID_TRUE),
-    CONSTANT("on", ID_TRUE),
-    CONSTANT("false", ID_FALSE),
-    CONSTANT("no", ID_FALSE),
-    CONSTANT("off", ID_FALSE),
-    CONSTANT("clock", ID_CLOCK),
-    CONSTANT("clock_delta", ID_CLOCK_DELTA),
-    CONSTANT("clock_on", ID_CLOCK_ON),
-    CONSTANT("image_width", ID_IMAGE_WIDTH),
-    CONSTANT("image_height", ID_IMAGE_HEIGHT),
-    CONSTANT("frame_number", ID_FRAME_NUMBER),
-    CONSTANT("initial_frame", ID_INITIAL_FRAME),
-    CONSTANT("final_frame", ID_FINAL_FRAME),
-    CONSTANT("initial_clock", ID_INITIAL_CLOCK),
-    CONSTANT("final_clock", ID_FINAL_CLOCK),
-    CONSTANT("now", ID_NOW),
-    CONSTANT("version", ID_VERSION),
+#define X(name, value) {#name, BUILTIN_CONSTANT, CONSTANT_##name, 0, 0},
+    CONSTANTS(X)
+#undef X
+#define X(name, value) {#name, BUILTIN_NUMBER, NUMBER_##name, 0, 0},
+    NUMBERS(X)
+#undef X
     FLOAT("abs", FUNCTION_ABS, 1, 1),
     FLOAT("acos", FUNCTION_ACOS, 1, 1),
     FLOAT("acosh", FUNCTION_ACOSH, 1, 1),
@@ -138,27 +123,6 @@ const Builtin builtins[] = {
     FLOAT("bitwise_and", FUNCTION_BITWISE_AND, 2, ANY),
     FLOAT("bitwise_or", FUNCTION_BITWISE_OR, 2, ANY),
     FLOAT("bitwise_xor", FUNCTION_BITWISE_XOR, 2, ANY),
-    NUMBER("asc", ID_ASC),
-    NUMBER("defined", ID_DEFINED),
-    NUMBER("dimensions", ID_DIMENSIONS),
-    NUMBER("dimension_size", ID_DIMENSION_SIZE),
-    NUMBER("file_exists", ID_FILE_EXISTS),
-    NUMBER("inside", ID_INSIDE),
-    NUMBER("rand", ID_RAND),
-    NUMBER("seed", ID_SEED),
-    NUMBER("strcmp", ID_STRCMP),
-    NUMBER("strlen", ID_STRLEN),
-    NUMBER("val", ID_VAL),
-    NUMBER("vdot", ID_VDOT),
-    NUMBER("vlength", ID_VLENGTH),
-    NUMBER("vaxis_rotate", ID_VAXIS_ROTATE),
-    NUMBER("vcross", ID_VCROSS),
-    NUMBER("vnormalize", ID_VNORMALIZE),
-    NUMBER("vrotate", ID_VROTATE),
-    NUMBER("vturbulence", ID_VTURBULENCE),
-    NUMBER("min_extent", ID_MIN_EXTENT),
-    NUMBER("max_extent", ID_MAX_EXTENT),
-    NUMBER("trace", ID_TRACE),
     COLOR("color"),
     COLOR("colour"),
     COLOR("rgb"),
@@ -199,57 +163,25 @@ static Num unit(int axis, int count)
     return num;
 }
 
+/* A number that differs from frame to frame: it is noted that the scene reads it. */
+static Num num_of_frame(Sdl *sdl, int reads, double value)
+{
+    sdl->frame_reads |= reads;
+    return num_float(value);
+}
+
+#define X(name, value)                                                                                                 \
+    case CONSTANT_##name:                                                                                              \
+        return value;
 Num builtin_constant(Sdl *sdl, int id)
 {
     switch (id) {
-    case ID_X:
-        return unit(0, 3);
-    case ID_Y:
-        return unit(1, 3);
-    case ID_Z:
-        return unit(2, 3);
-    case ID_T:
-        return unit(3, 4);
-    case ID_U:
-        return unit(0, 2);
-    case ID_V:
-        return unit(1, 2);
-    case ID_PI:
-        return num_float(PI);
-    case ID_TAU:
-        return num_float(2 * PI);
-    case ID_TRUE:
-        return num_float(1);
-    case ID_CLOCK:
-        sdl->frame_reads |= READ_CLOCK;
-        return num_float(sdl->clock);
-    case ID_CLOCK_DELTA:
-        return num_float(sdl->clock_delta);
-    case ID_CLOCK_ON:
-        return num_float(sdl->clock_on);
-    case ID_IMAGE_WIDTH:
-        return num_float(sdl->options.width ? sdl->options.width : 640);
-    case ID_IMAGE_HEIGHT:
-        return num_float(sdl->options.height ? sdl->options.height : 480);
-    case ID_FRAME_NUMBER:
-        sdl->frame_reads |= READ_FRAME_NUMBER;
-        return num_float(sdl->frame_number);
-    case ID_INITIAL_FRAME:
-        return num_float(sdl->initial_frame);
-    case ID_FINAL_FRAME:
-        return num_float(sdl->final_frame);
-    case ID_INITIAL_CLOCK:
-        return num_float(sdl->initial_clock);
-    case ID_FINAL_CLOCK:
-        return num_float(sdl->final_clock);
-    case ID_NOW:
-        return num_float(now());
-    case ID_VERSION:
-        return num_float(sdl->version);
+        CONSTANTS(X)
     default:
-        return num_float(0); /* false */
+        return num_float(0);
     }
 }
+#undef X
 
 static double call_select(const double *args, int count)
 {
@@ -306,14 +238,7 @@ static Num num_vector(Vec3 v)
 /* POV-Ray's random generator: s = s * 1812433253 + 12345 modulo 2^32. A stream is identified by its index. */
 static double seed(Sdl *sdl, double start)
 {
-    if (sdl->nseeds == sdl->seeds_capacity) {
-        int capacity = sdl->seeds_capacity ? sdl->seeds_capacity * 2 : 16;
-        uint32_t *seeds = sdl_alloc(sdl, (size_t)capacity * sizeof *seeds);
-        if (sdl->nseeds)
-            memcpy(seeds, sdl->seeds, (size_t)sdl->nseeds * sizeof *seeds);
-        sdl->seeds = seeds;
-        sdl->seeds_capacity = capacity;
-    }
+    sdl->seeds = sdl_grow(sdl, sdl->seeds, sdl->nseeds, &sdl->seeds_capacity, sizeof *sdl->seeds);
     sdl->seeds[sdl->nseeds] = fabs(start) < 9e18 ? (uint32_t)(int64_t)start : 0;
     return sdl->nseeds++;
 }
@@ -472,64 +397,25 @@ static double is_inside(Sdl *sdl)
     return inside > 0;
 }
 
+#define X(name, value)                                                                                                 \
+    case NUMBER_##name:                                                                                                \
+        return value;
 static Num call_number(Sdl *sdl, int id)
 {
     switch (id) {
-    case ID_ASC:
-        return num_float((unsigned char)*sdl_string(sdl));
-    case ID_DIMENSIONS:
-        return num_float(array_argument(sdl)->dimensions);
-    case ID_DIMENSION_SIZE:
-        return num_float(dimension_size(sdl));
-    case ID_FILE_EXISTS:
-        return num_float(file_exists(sdl));
-    case ID_INSIDE:
-        return num_float(is_inside(sdl));
-    case ID_RAND:
-        return num_float(next_random(sdl, expression_parameter(sdl)));
-    case ID_SEED:
-        return num_float(seed(sdl, expression_parameter(sdl)));
-    case ID_STRCMP:
-        return num_float(compare_strings(sdl));
-    case ID_STRLEN:
-        return num_float((double)strlen(sdl_string(sdl)));
-    case ID_VAL:
-        return num_float(value_of(sdl));
-    case ID_VDOT:
-        return num_float(dot(sdl));
-    case ID_VLENGTH:
-        return num_float(vector_length(sdl));
-    case ID_VAXIS_ROTATE:
-        return rotation(sdl, 1);
-    case ID_VCROSS:
-        return num_vector(cross(sdl));
-    case ID_VNORMALIZE:
-        return num_vector(vec_normalize(vector_argument(sdl, NULL)));
-    case ID_VROTATE:
-        return rotation(sdl, 0);
-    case ID_VTURBULENCE:
-        return turbulence(sdl);
-    case ID_MIN_EXTENT:
-        return extent(sdl, 0);
-    case ID_MAX_EXTENT:
-        return extent(sdl, 1);
+        NUMBERS(X)
     default:
-        return trace(sdl);
+        return num_float(0);
     }
 }
+#undef X
 
 Num builtin_number(Sdl *sdl, const Builtin *builtin)
 {
     if (builtin->kind == BUILTIN_FLOAT)
         return call_float(sdl, builtin);
-    if (builtin->id == ID_DEFINED) { /* the argument of defined() may be undeclared, so it is read without evaluation */
-        if (!sdl_raw_accept(sdl, '('))
-            sdl_expected(sdl, "`(`");
-        int is_defined = declare_is_defined(sdl);
-        if (!sdl_raw_accept(sdl, ')'))
-            sdl_expected(sdl, "`)`");
-        return num_float(is_defined);
-    }
+    if (builtin->id == NUMBER_defined)
+        return call_number(sdl, builtin->id);
     sdl_expect(sdl, "(");
     Num result = call_number(sdl, builtin->id);
     sdl_expect(sdl, ")");

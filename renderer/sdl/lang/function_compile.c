@@ -39,25 +39,13 @@ typedef struct Scope {
 
 static Operand compile(Compilation *c, const Node *node, Scope *scope);
 
-static void *grow(Sdl *sdl, void *array, int count, int *capacity, size_t size)
-{
-    if (count < *capacity)
-        return array;
-    const int more = *capacity ? *capacity * 2 : 16;
-    void *larger = sdl_alloc(sdl, (size_t)more * size);
-    if (count)
-        memcpy(larger, array, (size_t)count * size);
-    *capacity = more;
-    return larger;
-}
-
 static const Operand nowhere = {PLACE_ARGUMENT, 0};
 
 static int emit(Compilation *c, FunctionOp op, Operand to, Operand a, Operand b)
 {
     const int at = c->ninstructions;
     sdl_step(c->sdl, 1);
-    c->code = grow(c->sdl, c->code, at, &c->code_capacity, sizeof *c->code);
+    c->code = sdl_grow(c->sdl, c->code, at, &c->code_capacity, sizeof *c->code);
     c->code[c->ninstructions++] = (Emitted){op, to, a, b, 0};
     return at;
 }
@@ -67,7 +55,7 @@ static Operand constant(Compilation *c, double value)
     for (int i = c->nconstants - 1; i >= 0 && i >= c->nconstants - 32; i--)
         if (memcmp(&c->constants[i], &value, sizeof value) == 0)
             return (Operand){PLACE_CONSTANT, i};
-    c->constants = grow(c->sdl, c->constants, c->nconstants, &c->constant_capacity, sizeof *c->constants);
+    c->constants = sdl_grow(c->sdl, c->constants, c->nconstants, &c->constant_capacity, sizeof *c->constants);
     c->constants[c->nconstants] = value;
     return (Operand){PLACE_CONSTANT, c->nconstants++};
 }
@@ -255,12 +243,12 @@ static Operand compile_call(Compilation *c, const Node *node, Scope *scope)
     if (function->kind == FUNCTION_KIND_TREE) {
         op = FUNCTION_CALL;
         index = c->ncallees;
-        c->callees = grow(c->sdl, c->callees, index, &c->callee_capacity, sizeof *c->callees);
+        c->callees = sdl_grow(c->sdl, c->callees, index, &c->callee_capacity, sizeof *c->callees);
         c->callees[c->ncallees++] = function->program;
     } else if (function->kind == FUNCTION_KIND_FOREIGN) {
         op = FUNCTION_FOREIGN;
         index = c->nforeign;
-        c->foreign = grow(c->sdl, c->foreign, index, &c->foreign_capacity, sizeof *c->foreign);
+        c->foreign = sdl_grow(c->sdl, c->foreign, index, &c->foreign_capacity, sizeof *c->foreign);
         c->foreign[c->nforeign++] = function->foreign;
     }
     const int call = emit(c, op, first, first, nowhere);

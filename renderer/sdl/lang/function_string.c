@@ -16,16 +16,7 @@ static void append(Sdl *sdl, Text *text, const char *bytes, size_t length)
 {
     if (text->length + length > MAX_STRING)
         sdl_fail(sdl, RETEX_ELIMIT, "a string longer than %d bytes", MAX_STRING);
-    if (text->length + length + 1 > text->capacity) {
-        size_t capacity = text->capacity ? text->capacity : 32;
-        while (capacity < text->length + length + 1)
-            capacity *= 2;
-        char *grown = sdl_alloc(sdl, capacity);
-        if (text->length)
-            memcpy(grown, text->bytes, text->length);
-        text->bytes = grown;
-        text->capacity = capacity;
-    }
+    text->bytes = sdl_reserve(sdl, text->bytes, text->length, text->length + length + 1, &text->capacity);
     memcpy(text->bytes + text->length, bytes, length);
     text->length += length;
     text->bytes[text->length] = 0;

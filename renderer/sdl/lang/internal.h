@@ -229,7 +229,8 @@ struct Sdl {
 };
 
 /* language.c */
-_Noreturn void sdl_fail(Sdl *sdl, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
+/* The bytes, used so many of them, or a copy of them where there is place for all that are wanted. */
+char *sdl_reserve(Sdl *sdl, char *bytes, size_t used, size_t wanted, size_t *capacity);
 _Noreturn void sdl_fail_memory(Sdl *sdl); /* error: the scene's memory limit is reached */
 void sdl_message(Sdl *sdl, int level, const char *text);
 void sdl_debug_text(Sdl *sdl, const char *text);
@@ -260,6 +261,7 @@ void stream_finish_macros(Sdl *sdl, int frame);      /* reads on until the macro
 const Raw *sdl_raw(Sdl *sdl);                        /* consumes the next raw token; runs no directive or macro */
 const Raw *sdl_raw_peek(Sdl *sdl);
 int sdl_raw_accept(Sdl *sdl, char punct);
+void sdl_raw_expect(Sdl *sdl, char punct);
 void stream_push_file(Sdl *sdl, Source *source);
 void stream_push_macro(Sdl *sdl, const Macro *macro);
 void stream_pop(Sdl *sdl);
@@ -279,7 +281,7 @@ void symbol_bind(Sdl *sdl, Symbol *symbol, Word *word, int scope);
 Symbol *symbol_add(Sdl *sdl, Word *word, int scope); /* for #declare and #local; scope 0 is global */
 void symbol_remove(Sdl *sdl, Symbol *symbol);
 void scope_close(Sdl *sdl, Frame *frame);
-int declare_is_defined(Sdl *sdl); /* for #ifdef and defined(): reads a name with its indices, raw */
+int declare_is_defined(Sdl *sdl); /* for #ifdef and defined(): reads a name with its indices in parentheses, raw */
 
 /* macro.c */
 void macro_define(Sdl *sdl, const Raw *opener);

@@ -46,6 +46,32 @@ void *sdl_alloc(Sdl *sdl, size_t bytes)
     return memory;
 }
 
+void *sdl_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size)
+{
+    if (count < *capacity)
+        return array;
+    if (*capacity > 1 << 28)
+        sdl_error(sdl, "more than %d things of one kind", *capacity);
+    *capacity = *capacity ? *capacity * 2 : 16;
+    void *larger = sdl_alloc(sdl, (size_t)*capacity * size);
+    if (count > 0)
+        memcpy(larger, array, (size_t)count * size);
+    return larger;
+}
+
+char *sdl_reserve(Sdl *sdl, char *bytes, size_t used, size_t wanted, size_t *capacity)
+{
+    if (wanted <= *capacity)
+        return bytes;
+    *capacity = *capacity ? *capacity : 32;
+    while (*capacity < wanted)
+        *capacity *= 2;
+    char *larger = sdl_alloc(sdl, *capacity);
+    if (used)
+        memcpy(larger, bytes, used);
+    return larger;
+}
+
 void sdl_fail_memory(Sdl *sdl)
 {
     const size_t own = sdl->options.max_memory;
@@ -87,12 +113,6 @@ static const char *file_name(const Sdl *sdl)
     return sdl->token.file ? sdl->token.file : sdl->scene->path;
 }
 
-static _Noreturn void fail(Sdl *sdl, int code, const char *text)
-{
-    sdl->code = retex_fail_at(sdl->err, code, file_name(sdl), sdl->token.line, sdl->token.column, "%s", text);
-    longjmp(sdl->jump, 1);
-}
-
 void sdl_fail(Sdl *sdl, int code, const char *fmt, ...)
 {
     char text[1024];
@@ -100,17 +120,8 @@ void sdl_fail(Sdl *sdl, int code, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
     va_end(args);
-    fail(sdl, code, text);
-}
-
-void sdl_error(Sdl *sdl, const char *fmt, ...)
-{
-    char text[1024];
-    va_list args;
-    va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
-    va_end(args);
-    fail(sdl, RETEX_EPARSE, text);
+    sdl->code = retex_fail_at(sdl->err, code, file_name(sdl), sdl->token.line, sdl->token.column, "%s", text);
+    longjmp(sdl->jump, 1);
 }
 
 /* If a `}` is missing, the error names the line of the matching `{`. An error about an undeclared name does not get
@@ -166,14 +177,7 @@ static void flush_debug(Sdl *sdl)
 void sdl_debug_text(Sdl *sdl, const char *text)
 {
     for (; *text; text++) {
-        if (sdl->npending + 2 > sdl->pending_capacity) {
-            size_t capacity = sdl->pending_capacity ? sdl->pending_capacity * 2 : 256;
-            char *pending = sdl_alloc(sdl, capacity);
-            if (sdl->npending)
-                memcpy(pending, sdl->pending, sdl->npending);
-            sdl->pending = pending;
-            sdl->pending_capacity = capacity;
-        }
+        sdl->pending = sdl_reserve(sdl, sdl->pending, sdl->npending, sdl->npending + 2, &sdl->pending_capacity);
         sdl->pending[sdl->npending] = 0;
         if (*text == '\n') {
             sdl_message(sdl, 0, sdl->pending);
@@ -223,14 +227,8 @@ void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)
     for (int i = 0; i < sdl->nreported; i++)
         if (strcmp(sdl->reported[i], name) == 0)
             return;
-    if (sdl->nreported == sdl->reported_capacity) {
-        int capacity = sdl->reported_capacity ? sdl->reported_capacity * 2 : 16;
-        const char **reported = sdl_alloc(sdl, (size_t)capacity * sizeof *reported);
-        if (sdl->nreported)
-            memcpy(reported, sdl->reported, (size_t)sdl->nreported * sizeof *reported);
-        sdl->reported = reported;
-        sdl->reported_capacity = capacity;
-    }
+    sdl->reported =
+        sdl_grow(sdl, sdl->reported, sdl->nreported, &sdl->reported_capacity, sizeof *sdl->reported);
     char *copy = sdl_alloc(sdl, strlen(name) + 1);
     strcpy(copy, name);
     sdl->reported[sdl->nreported++] = copy;

@@ -264,14 +264,7 @@ static Word *word(Lexer *lexer)
 
 static void push_open(Lexer *lexer, uint32_t index, uint8_t id)
 {
-    if (lexer->nopen == lexer->open_capacity) {
-        int capacity = lexer->open_capacity ? lexer->open_capacity * 2 : 32;
-        Open *open = sdl_alloc(lexer->sdl, (size_t)capacity * sizeof *open);
-        if (lexer->nopen)
-            memcpy(open, lexer->open, (size_t)lexer->nopen * sizeof *open);
-        lexer->open = open;
-        lexer->open_capacity = capacity;
-    }
+    lexer->open = sdl_grow(lexer->sdl, lexer->open, lexer->nopen, &lexer->open_capacity, sizeof *lexer->open);
     lexer->open[lexer->nopen++] = (Open){index, index, id, 0};
 }
 

@@ -74,8 +74,12 @@ const RetexAccess *sdl_access(Sdl *sdl); /* rules for files that may be read */
 double sdl_version(Sdl *sdl);            /* language version: 3.62 unless #version sets it */
 void sdl_step(Sdl *sdl, long count);     /* counts steps against the limit; an error if it is exceeded */
 void *sdl_alloc(Sdl *sdl, size_t bytes); /* zeroed memory; an error at the limit, never NULL */
+/* The array, or a copy twice as large where it is full: there is place for one more of size bytes. */
+void *sdl_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size);
 
-_Noreturn void sdl_error(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3); /* reports an error at the current token */
+/* Report an error at the current token: of the scene's text, or another code. */
+#define sdl_error(sdl, ...) sdl_fail(sdl, RETEX_EPARSE, __VA_ARGS__)
+_Noreturn void sdl_fail(Sdl *sdl, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
 _Noreturn void sdl_expected(Sdl *sdl, const char *what);                     /* "expected WHAT, found `…`" */
 /* Warn once per name: "FILE:LINE: warning: `NAME` is not supported yet: INSTEAD". With --strict it is an error. */
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead);
@@ -90,6 +94,7 @@ void sdl_place(Sdl *sdl, const char **file, int *line);
 const Token *sdl_peek(Sdl *sdl);                     /* the next token, after directives and macros */
 const Token *sdl_next(Sdl *sdl);                     /* consumes the next token; valid until the next call */
 int sdl_accept(Sdl *sdl, const char *word_or_punct); /* consumes the next token if it matches; 1 if so */
+int sdl_accept_float(Sdl *sdl, const char *word, double *value); /* the word and its float; 1 if so */
 void sdl_expect(Sdl *sdl, const char *word_or_punct);
 int sdl_is(Sdl *sdl, const char *word_or_punct); /* 1 if the next token matches; consumes nothing */
 void sdl_optional_comma(Sdl *sdl);

@@ -126,16 +126,7 @@ MemoryFile *memory_file_create(Sdl *sdl, const char *name)
 
 void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t size)
 {
-    if (file->size + size > file->capacity) {
-        size_t capacity = file->capacity ? file->capacity : 256;
-        while (capacity < file->size + size)
-            capacity *= 2;
-        char *grown = sdl_alloc(sdl, capacity);
-        if (file->size)
-            memcpy(grown, file->bytes, file->size);
-        file->bytes = grown;
-        file->capacity = capacity;
-    }
+    file->bytes = sdl_reserve(sdl, file->bytes, file->size, file->size + size, &file->capacity);
     if (size)
         memcpy(file->bytes + file->size, bytes, size);
     file->size += size;

@@ -29,14 +29,7 @@ static void add_knot(Sdl *sdl, Spline *spline, double at, Num value)
     for (int i = 0; i < spline->count; i++)
         if (spline->knots[i].at == at)
             sdl_error(sdl, "a spline with two points at %g", at);
-    if (spline->count == spline->capacity) {
-        int capacity = spline->capacity ? spline->capacity * 2 : 8;
-        Knot *knots = sdl_alloc(sdl, (size_t)capacity * sizeof *knots);
-        if (spline->count)
-            memcpy(knots, spline->knots, (size_t)spline->count * sizeof *knots);
-        spline->knots = knots;
-        spline->capacity = capacity;
-    }
+    spline->knots = sdl_grow(sdl, spline->knots, spline->count, &spline->capacity, sizeof *spline->knots);
     sdl_step(sdl, 1 + spline->count / 64);
     Knot *knot = &spline->knots[spline->count++];
     memset(knot, 0, sizeof *knot);

@@ -249,6 +249,14 @@ int sdl_accept(Sdl *sdl, const char *word_or_punct)
     return 1;
 }
 
+int sdl_accept_float(Sdl *sdl, const char *word, double *value)
+{
+    if (!sdl_accept(sdl, word))
+        return 0;
+    *value = sdl_float(sdl);
+    return 1;
+}
+
 void sdl_expect(Sdl *sdl, const char *word_or_punct)
 {
     if (sdl_accept(sdl, word_or_punct))
@@ -310,6 +318,14 @@ int sdl_raw_accept(Sdl *sdl, char punct)
         return 0;
     sdl->cursor++;
     return 1;
+}
+
+void sdl_raw_expect(Sdl *sdl, char punct)
+{
+    char what[] = "` `";
+    what[1] = punct;
+    if (!sdl_raw_accept(sdl, punct))
+        sdl_expected(sdl, what);
 }
 
 static const char *value_kind_name(const Value *value)

@@ -11,10 +11,6 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
         *interior = *known;
     else if (sdl_accept(sdl, "ior"))
         i->ior = sdl_float(sdl), interior->has_ior = 1;
-    else if (sdl_accept(sdl, "fade_distance"))
-        i->fade_distance = sdl_float(sdl);
-    else if (sdl_accept(sdl, "fade_power"))
-        i->fade_power = sdl_float(sdl);
     else if (sdl_accept(sdl, "fade_color") || sdl_accept(sdl, "fade_colour")) {
         Rgbft c = sdl_color(sdl);
         i->fade_color = rgb(c.r, c.g, c.b);
@@ -23,11 +19,11 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
             gaps_add(&interior->gaps, GAP_FAKE_CAUSTICS);
     } else if (sdl_accept(sdl, "refraction") || sdl_accept(sdl, "dispersion_samples"))
         sdl_float(sdl);
-    else if (sdl_accept(sdl, "dispersion"))
-        i->dispersion = sdl_float(sdl);
     else if (sdl_accept(sdl, "media"))
         i->media = media_with(sdl, i->media, parse_media(sdl));
-    else
+    else if (!sdl_accept_float(sdl, "fade_distance", &i->fade_distance) &&
+             !sdl_accept_float(sdl, "fade_power", &i->fade_power) &&
+             !sdl_accept_float(sdl, "dispersion", &i->dispersion))
         sdl_expected(sdl, "ior, fade_distance, fade_power, fade_color, media or } in interior");
 }
 

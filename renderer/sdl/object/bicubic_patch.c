@@ -129,9 +129,9 @@ static void add_vertex(MeshGrower *g, double u, double v)
     const Vec2 *uv = g->patch->uv;
     const double w[4] = {(1 - u) * (1 - v), (1 - u) * v, u * v, u * (1 - v)};
 
-    mesh->vertices = builder_grow(g->sdl, mesh->vertices, mesh->nvertices, &g->vertex_capacity, sizeof(Vec3));
-    mesh->normals = builder_grow(g->sdl, mesh->normals, mesh->nnormals, &g->normal_capacity, sizeof(Vec3));
-    mesh->uvs = builder_grow(g->sdl, mesh->uvs, mesh->nuvs, &g->uv_capacity, sizeof(Vec2));
+    mesh->vertices = sdl_grow(g->sdl, mesh->vertices, mesh->nvertices, &g->vertex_capacity, sizeof(Vec3));
+    mesh->normals = sdl_grow(g->sdl, mesh->normals, mesh->nnormals, &g->normal_capacity, sizeof(Vec3));
+    mesh->uvs = sdl_grow(g->sdl, mesh->uvs, mesh->nuvs, &g->uv_capacity, sizeof(Vec2));
     evaluate(g->patch, u, v, &mesh->vertices[mesh->nvertices++], &mesh->normals[mesh->nnormals++]);
     mesh->uvs[mesh->nuvs] = (Vec2){0, 0};
     for (int k = 0; k < 4; k++) {
@@ -145,7 +145,7 @@ static void add_face(MeshGrower *g, int a, int b, int c)
 {
     Mesh *mesh = g->mesh;
 
-    mesh->faces = builder_grow(g->sdl, mesh->faces, mesh->nfaces, &g->face_capacity, sizeof *mesh->faces);
+    mesh->faces = sdl_grow(g->sdl, mesh->faces, mesh->nfaces, &g->face_capacity, sizeof *mesh->faces);
     mesh->faces[mesh->nfaces++] = (MeshFace){{a, b, c}, {a, b, c}, {a, b, c}, -1};
 }
 

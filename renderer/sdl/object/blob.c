@@ -37,7 +37,7 @@ static void finish_component(Sdl *sdl, BlobParts *parts, BlobComponent *componen
         if (modified->texture.is_moved)
             texture = texture_moved(sdl, texture, &modified->texture.transform);
         FaceTextures *all = parts->textures;
-        all->list = builder_grow(sdl, all->list, all->count, &parts->texture_capacity, sizeof *all->list);
+        all->list = sdl_grow(sdl, all->list, all->count, &parts->texture_capacity, sizeof *all->list);
         all->list[all->count] = &texture->texture;
         component->texture = all->count++;
     }
@@ -45,7 +45,7 @@ static void finish_component(Sdl *sdl, BlobParts *parts, BlobComponent *componen
 
 static void add_component(Sdl *sdl, BlobParts *parts, BlobComponent component)
 {
-    parts->components = builder_grow(sdl, parts->components, parts->count, &parts->capacity, sizeof *parts->components);
+    parts->components = sdl_grow(sdl, parts->components, parts->count, &parts->capacity, sizeof *parts->components);
     parts->components[parts->count++] = component;
 }
 

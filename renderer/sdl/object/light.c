@@ -90,20 +90,13 @@ static int accept_geometry(Sdl *sdl, Light *light)
         light->point_at = sdl_vector(sdl), light->is_aimed = 1;
     else if (sdl_accept(sdl, "area_light"))
         area_light(sdl, light);
-    else if (sdl_accept(sdl, "radius"))
-        light->radius = sdl_float(sdl);
-    else if (sdl_accept(sdl, "falloff"))
-        light->falloff = sdl_float(sdl);
-    else if (sdl_accept(sdl, "tightness"))
-        light->tightness = sdl_float(sdl);
-    else if (sdl_accept(sdl, "fade_distance"))
-        light->fade_distance = sdl_float(sdl);
-    else if (sdl_accept(sdl, "fade_power"))
-        light->fade_power = sdl_float(sdl);
     else if (sdl_accept(sdl, "adaptive"))
         sdl_float(sdl); /* all of the grid is sampled */
     else
-        return 0;
+        return sdl_accept_float(sdl, "radius", &light->radius) || sdl_accept_float(sdl, "falloff", &light->falloff) ||
+               sdl_accept_float(sdl, "tightness", &light->tightness) ||
+               sdl_accept_float(sdl, "fade_distance", &light->fade_distance) ||
+               sdl_accept_float(sdl, "fade_power", &light->fade_power);
     return 1;
 }
 

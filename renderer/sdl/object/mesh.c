@@ -232,7 +232,7 @@ static int mesh_texture(Sdl *sdl, MeshLists *b, const ParsedTexture *texture)
     for (int i = all->count; i-- > 0 && i >= all->count - 64;)
         if (all->list[i] == &texture->texture)
             return i;
-    all->list = builder_grow(sdl, all->list, all->count, &b->texture_capacity, sizeof *all->list);
+    all->list = sdl_grow(sdl, all->list, all->count, &b->texture_capacity, sizeof *all->list);
     all->list[all->count] = &texture->texture;
     return all->count++;
 }
@@ -241,7 +241,7 @@ static void mesh_uvs(Sdl *sdl, MeshLists *b, MeshFace *face)
 {
     Mesh *mesh = b->mesh;
     for (int i = 0; i < 3; i++) {
-        mesh->uvs = builder_grow(sdl, mesh->uvs, mesh->nuvs, &b->uv_capacity, sizeof *mesh->uvs);
+        mesh->uvs = sdl_grow(sdl, mesh->uvs, mesh->nuvs, &b->uv_capacity, sizeof *mesh->uvs);
         mesh->uvs[mesh->nuvs] = sdl_vector2(sdl);
         face->uv[i] = mesh->nuvs++;
         sdl_optional_comma(sdl);
@@ -253,14 +253,14 @@ static void mesh_corners(Sdl *sdl, MeshLists *b, MeshFace *face, int smooth)
     Mesh *mesh = b->mesh;
     for (int i = 0; i < 3; i++) {
         mesh->vertices =
-            builder_grow(sdl, mesh->vertices, mesh->nvertices, &b->vertex_capacity, sizeof *mesh->vertices);
+            sdl_grow(sdl, mesh->vertices, mesh->nvertices, &b->vertex_capacity, sizeof *mesh->vertices);
         mesh->vertices[mesh->nvertices] = sdl_vector(sdl);
         face->vertex[i] = mesh->nvertices++;
         sdl_optional_comma(sdl);
         face->normal[i] = face->uv[i] = -1;
         if (smooth) {
             mesh->normals =
-                builder_grow(sdl, mesh->normals, mesh->nnormals, &b->normal_capacity, sizeof *mesh->normals);
+                sdl_grow(sdl, mesh->normals, mesh->nnormals, &b->normal_capacity, sizeof *mesh->normals);
             mesh->normals[mesh->nnormals] = sdl_vector(sdl);
             face->normal[i] = mesh->nnormals++;
             sdl_optional_comma(sdl);
@@ -289,9 +289,9 @@ static void add_triangle(Sdl *sdl, MeshLists *b, MeshFace face, int ntextures, c
 {
     Mesh *mesh = b->mesh;
     face.texture = ntextures > 0 ? of_corner[0] : -1;
-    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_capacity, sizeof *mesh->faces);
+    mesh->faces = sdl_grow(sdl, mesh->faces, mesh->nfaces, &b->face_capacity, sizeof *mesh->faces);
     b->corner_textures =
-        builder_grow(sdl, b->corner_textures, mesh->nfaces, &b->corner_capacity, sizeof *b->corner_textures);
+        sdl_grow(sdl, b->corner_textures, mesh->nfaces, &b->corner_capacity, sizeof *b->corner_textures);
     for (int j = 0; j < 2; j++)
         b->corner_textures[mesh->nfaces][j] = ntextures == 3 ? of_corner[j + 1] : face.texture;
     if (ntextures == 3)

@@ -35,11 +35,6 @@ static Vec3 at(const Grid *grid, int i, int j)
     return grid->points[(size_t)i * (size_t)grid->v.count + (size_t)j];
 }
 
-static int is_finite(Vec3 p)
-{
-    return (p.x + p.y + p.z) * 0 == 0;
-}
-
 /* ---- the grid ---- */
 
 static Lines first_lines(Sdl *sdl, double low, double high)
@@ -80,7 +75,7 @@ static int may_be_seen(const Grid *grid, int i, int j)
 static int is_off(const Grid *grid, Vec3 is, Vec3 a, Vec3 b)
 {
     const Vec3 off = vec_sub(is, vec_scale(vec_add(a, b), 0.5));
-    return is_finite(off) && vec_length(off) > grid->tolerance;
+    return vec_is_finite(off) && vec_length(off) > grid->tolerance;
 }
 
 /* Marks the intervals of lines that are too wide; returns how many. */
@@ -147,7 +142,7 @@ static Vec3 normal_at(const Grid *grid, double u, double v)
         const Vec3 along_v = vec_sub(surface(grid, u, v + dv), surface(grid, u, v - dv));
         const double sizes = vec_length(along_u) * vec_length(along_v);
         const Vec3 n = vec_cross(along_u, along_v);
-        if (vec_length(n) > 1e-4 * sizes && sizes > 1e-16 * grid->tolerance * grid->tolerance && is_finite(n))
+        if (vec_length(n) > 1e-4 * sizes && sizes > 1e-16 * grid->tolerance * grid->tolerance && vec_is_finite(n))
             return vec_normalize(n);
         u += (u < 0.5 * (grid->low[0] + grid->high[0]) ? 100 : -100) * du;
         v += (v < 0.5 * (grid->low[1] + grid->high[1]) ? 100 : -100) * dv;
@@ -172,9 +167,9 @@ static int add_corner(Cutter *c, const Corner *corner)
 {
     Mesh *m = c->mesh;
     Sdl *sdl = c->grid->sdl;
-    m->vertices = builder_grow(sdl, m->vertices, m->nvertices, &c->vertex_capacity, sizeof *m->vertices);
-    m->normals = builder_grow(sdl, m->normals, m->nnormals, &c->normal_capacity, sizeof *m->normals);
-    m->uvs = builder_grow(sdl, m->uvs, m->nuvs, &c->uv_capacity, sizeof *m->uvs);
+    m->vertices = sdl_grow(sdl, m->vertices, m->nvertices, &c->vertex_capacity, sizeof *m->vertices);
+    m->normals = sdl_grow(sdl, m->normals, m->nnormals, &c->normal_capacity, sizeof *m->normals);
+    m->uvs = sdl_grow(sdl, m->uvs, m->nuvs, &c->uv_capacity, sizeof *m->uvs);
     m->vertices[m->nvertices++] = corner->p;
     m->normals[m->nnormals++] = corner->normal;
     m->uvs[m->nuvs++] = corner->uv;
@@ -194,7 +189,7 @@ static void add_face(Cutter *c, Corner *corners[3])
     }
     for (int k = 0; k < 3 && !smooth; k++)
         face.normal[k] = -1;
-    m->faces = builder_grow(c->grid->sdl, m->faces, m->nfaces, &c->face_capacity, sizeof *m->faces);
+    m->faces = sdl_grow(c->grid->sdl, m->faces, m->nfaces, &c->face_capacity, sizeof *m->faces);
     m->faces[m->nfaces++] = face;
 }
 
@@ -269,7 +264,7 @@ static void add_cell(Cutter *c, int i, int j)
         const int a = i + way[k][0], b = j + way[k][1];
         indices[k] = &c->index[(size_t)a * (size_t)grid->v.count + (size_t)b];
         corners[k] = (Corner){.p = at(grid, a, b), .uv = {grid->u.at[a], grid->v.at[b]}, .index = *indices[k] - 1};
-        if (!is_finite(corners[k].p))
+        if (!vec_is_finite(corners[k].p))
             return;
         corners[k].normal = corners[k].index >= 0 ? c->mesh->normals[corners[k].index]
                                                   : normal_at(grid, corners[k].uv.u, corners[k].uv.v);

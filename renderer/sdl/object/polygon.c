@@ -28,7 +28,7 @@ static void add(Sdl *sdl, Triangles *out, Vec2 a, Vec2 b, Vec2 c)
     if (area == 0)
         return;
     for (int i = 0; i < 3; i++) {
-        out->corners = builder_grow(sdl, out->corners, out->count, &out->capacity, sizeof *out->corners);
+        out->corners = sdl_grow(sdl, out->corners, out->count, &out->capacity, sizeof *out->corners);
         out->corners[out->count++] = i == 0 ? a : (i == 1) == (area > 0) ? b : c;
     }
 }
@@ -109,12 +109,12 @@ static double *heights(Sdl *sdl, const Edge *edges, int n, int *count)
     for (int i = 0; i < n; i++) {
         sdl_step(sdl, 1 + i / EDGES_A_STEP);
         for (int end = 0; end < 2; end++) {
-            all = builder_grow(sdl, all, *count, &capacity, sizeof *all);
+            all = sdl_grow(sdl, all, *count, &capacity, sizeof *all);
             all[(*count)++] = end ? edges[i].high.v : edges[i].low.v;
         }
         for (int j = 0; j < i; j++)
             if (crossing_height(&edges[i], &edges[j], &v)) {
-                all = builder_grow(sdl, all, *count, &capacity, sizeof *all);
+                all = sdl_grow(sdl, all, *count, &capacity, sizeof *all);
                 all[(*count)++] = v;
             }
     }

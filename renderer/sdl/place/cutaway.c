@@ -13,10 +13,10 @@ void cutaway_add(Sdl *sdl, const Inherited *in, const ParsedTexture *texture)
         return;
     if (!in->texture && in->csg->parent && in->csg->parent->kind == CSG_INTERSECTION) {
         cutaway->bare =
-            builder_grow(sdl, cutaway->bare, cutaway->nbare, &cutaway->bare_capacity, sizeof *cutaway->bare);
+            sdl_grow(sdl, cutaway->bare, cutaway->nbare, &cutaway->bare_capacity, sizeof *cutaway->bare);
         cutaway->bare[cutaway->nbare++] = sdl_scene(sdl)->nprimitives - 1;
     } else if (!in->is_taken_off) {
-        cutaway->cut = builder_grow(sdl, cutaway->cut, cutaway->ncut, &cutaway->cut_capacity, sizeof *cutaway->cut);
+        cutaway->cut = sdl_grow(sdl, cutaway->cut, cutaway->ncut, &cutaway->cut_capacity, sizeof *cutaway->cut);
         cutaway->cut[cutaway->ncut++] = (CutOperand){texture, in->idents, in->csg};
     }
 }
@@ -48,7 +48,7 @@ static ParsedTextureMap *map_of_operands(Sdl *sdl, const Cutaway *cutaway)
             map->entries[k].texture = texture_named(sdl, operand->texture, operand->idents);
         }
         operands[k].nodes =
-            builder_grow(sdl, operands[k].nodes, operands[k].count, &capacity[k], sizeof *operands[k].nodes);
+            sdl_grow(sdl, operands[k].nodes, operands[k].count, &capacity[k], sizeof *operands[k].nodes);
         operands[k].nodes[operands[k].count++] = operand->node;
     }
     return map;

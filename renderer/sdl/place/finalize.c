@@ -257,7 +257,7 @@ static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
         size_t slot = find_slot(names, idents->name);
         if (names->table[slot])
             continue;
-        scene->idents = builder_grow(sdl, scene->idents, scene->nidents, &names->capacity, sizeof *scene->idents);
+        scene->idents = sdl_grow(sdl, scene->idents, scene->nidents, &names->capacity, sizeof *scene->idents);
         names->table[slot] = scene->idents[scene->nidents++] = idents->name;
     }
 }

@@ -3,7 +3,6 @@
  * transform, a texture for the parts that have none, and names. */
 #include <string.h>
 #include "sdl/place/place.h"
-#include "shade/material.h"
 
 enum { SEPARATE_PARTS = 8192, PROTOTYPE_PARTS = 2000000, COMPOUND_BUCKETS = 1024 };
 
@@ -170,7 +169,7 @@ static void add_instance(Sdl *sdl, const Object *object, const Inherited *around
                          const ParsedTexture *texture, const Transform *to_world)
 {
     Scene *scene = sdl_scene(sdl);
-    scene->instances = builder_grow(sdl, scene->instances, scene->ninstances, &places_of(sdl)->instance_capacity,
+    scene->instances = sdl_grow(sdl, scene->instances, scene->ninstances, &places_of(sdl)->instance_capacity,
                                     sizeof *scene->instances);
     object_report(sdl, object);
     texture_report(sdl, texture);

@@ -120,8 +120,8 @@ static Primitive *primitive_new(Sdl *sdl)
     PlaceState *places = places_of(sdl);
     int capacity = places->primitive_capacity;
     places->single_triangle =
-        builder_grow(sdl, places->single_triangle, scene->nprimitives, &capacity, sizeof *places->single_triangle);
-    scene->primitives = builder_grow(sdl, scene->primitives, scene->nprimitives, &places->primitive_capacity,
+        sdl_grow(sdl, places->single_triangle, scene->nprimitives, &capacity, sizeof *places->single_triangle);
+    scene->primitives = sdl_grow(sdl, scene->primitives, scene->nprimitives, &places->primitive_capacity,
                                      sizeof *scene->primitives);
     Primitive *primitive = &scene->primitives[scene->nprimitives++];
     memset(primitive, 0, sizeof *primitive);
@@ -199,7 +199,7 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
     const Transform *to_world = &here->to_world;
     Scene *scene = sdl_scene(sdl);
     scene->lights =
-        builder_grow(sdl, scene->lights, scene->nlights, &places_of(sdl)->light_capacity, sizeof *scene->lights);
+        sdl_grow(sdl, scene->lights, scene->nlights, &places_of(sdl)->light_capacity, sizeof *scene->lights);
     Light *light = &scene->lights[scene->nlights++];
     *light = *object->light;
     if (light->ies)
@@ -274,7 +274,7 @@ static void add_root(Sdl *sdl, CsgNode *root, const Prototype *prototype, int li
 {
     PlaceState *places = places_of(sdl);
     places->csg_roots =
-        builder_grow(sdl, places->csg_roots, places->ncsg_roots, &places->csg_capacity, sizeof *places->csg_roots);
+        sdl_grow(sdl, places->csg_roots, places->ncsg_roots, &places->csg_capacity, sizeof *places->csg_roots);
     places->csg_roots[places->ncsg_roots++] = (CsgRoot){root, prototype, line};
 }
 

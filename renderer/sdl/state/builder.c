@@ -56,19 +56,6 @@ void statement_end(Sdl *sdl)
     builder_of(sdl)->depth--;
 }
 
-void *builder_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size)
-{
-    if (count < *capacity)
-        return array;
-    if (*capacity > 1 << 28)
-        sdl_error(sdl, "more than %d things of one kind", *capacity);
-    *capacity = *capacity ? *capacity * 2 : 16;
-    void *larger = sdl_alloc(sdl, (size_t)*capacity * size);
-    if (count > 0)
-        memcpy(larger, array, (size_t)count * size);
-    return larger;
-}
-
 Value *peek_ident(Sdl *sdl, ValueKind kind)
 {
     const Token *token = sdl_peek(sdl);

@@ -75,8 +75,6 @@ static inline Builder *builder_of(Sdl *sdl)
 /* Nesting of statements that the parser recurses for; an error when too deep. */
 void statement_begin(Sdl *sdl);
 void statement_end(Sdl *sdl);
-/* The array, or a copy twice as large where it is full: there is place for one more of size bytes. */
-void *builder_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size);
 
 /* The value of the next token where it is an identifier of that kind, else NULL. */
 Value *peek_ident(Sdl *sdl, ValueKind kind);

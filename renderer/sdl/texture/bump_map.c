@@ -3,7 +3,6 @@
 #include <retex/image_file.h>
 #include "base/digest.h"
 #include "sdl/texture/texture.h"
-#include "shade/pigment.h"
 
 enum { SIDE_MAX = 65536 };
 

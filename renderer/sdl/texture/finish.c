@@ -53,13 +53,10 @@ static void reflection(Sdl *sdl, Finish *f)
             /* With one colour it is the maximum: seen straight on, a Fresnel mirror does not reflect by itself. */
             if (f->reflection_fresnel && !two)
                 f->reflection_min = rgb_grey(0);
-        } else if (sdl_accept(sdl, "falloff"))
-            f->reflection_falloff = sdl_float(sdl);
-        else if (sdl_accept(sdl, "exponent"))
-            f->reflection_exponent = sdl_float(sdl);
-        else if (sdl_accept(sdl, "metallic"))
+        } else if (sdl_accept(sdl, "metallic"))
             f->reflection_metallic = optional_float(sdl, 1);
-        else
+        else if (!sdl_accept_float(sdl, "falloff", &f->reflection_falloff) &&
+                 !sdl_accept_float(sdl, "exponent", &f->reflection_exponent))
             sdl_expected(sdl, "fresnel, falloff, exponent, metallic or } in reflection");
     }
 }
@@ -158,11 +155,8 @@ static void irid(Sdl *sdl, Finish *f)
     if (f->irid > 1)
         sdl_warn(sdl, "irid %g would make light: 1 is taken", f->irid);
     while (!sdl_accept(sdl, "}"))
-        if (sdl_accept(sdl, "thickness"))
-            f->irid_thickness = sdl_float(sdl);
-        else if (sdl_accept(sdl, "turbulence"))
-            f->irid_turbulence = sdl_float(sdl);
-        else
+        if (!sdl_accept_float(sdl, "thickness", &f->irid_thickness) &&
+            !sdl_accept_float(sdl, "turbulence", &f->irid_turbulence))
             sdl_expected(sdl, "thickness, turbulence or } in irid");
 }
 

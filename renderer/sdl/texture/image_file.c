@@ -83,7 +83,7 @@ static void add_image(Sdl *sdl, ParsedImage *image)
 {
     Scene *scene = sdl_scene(sdl);
     TextureState *textures = textures_of(sdl);
-    scene->images = builder_grow(sdl, scene->images, scene->nimages, &textures->image_capacity, sizeof *scene->images);
+    scene->images = sdl_grow(sdl, scene->images, scene->nimages, &textures->image_capacity, sizeof *scene->images);
     scene->images[scene->nimages++] = &image->map;
 }
 

@@ -12,25 +12,20 @@ typedef struct Reader {
 
 /* ---- maps ---- */
 
-static int by_value(double a, double b)
-{
-    return a > b;
-}
-
 static void add_slope(Sdl *sdl, ParsedSlopeMap *map, int *capacity, SlopeMapEntry entry)
 {
-    map->entries = builder_grow(sdl, map->entries, map->count, capacity, sizeof *map->entries);
+    map->entries = sdl_grow(sdl, map->entries, map->count, capacity, sizeof *map->entries);
     int i = map->count++;
-    for (; i > 0 && by_value(map->entries[i - 1].value, entry.value); i--)
+    for (; i > 0 && map->entries[i - 1].value > entry.value; i--)
         map->entries[i] = map->entries[i - 1];
     map->entries[i] = entry;
 }
 
 static void add_normal(Sdl *sdl, ParsedNormalMap *map, int *capacity, NormalMapEntry entry, int sorted)
 {
-    map->entries = builder_grow(sdl, map->entries, map->count, capacity, sizeof *map->entries);
+    map->entries = sdl_grow(sdl, map->entries, map->count, capacity, sizeof *map->entries);
     int i = map->count++;
-    for (; sorted && i > 0 && by_value(map->entries[i - 1].value, entry.value); i--)
+    for (; sorted && i > 0 && map->entries[i - 1].value > entry.value; i--)
         map->entries[i] = map->entries[i - 1];
     map->entries[i] = entry;
     gaps_join(&map->gaps, &parsed_normal(entry.normal)->gaps);

@@ -149,7 +149,7 @@ ParsedColorMap *color_list_new(Sdl *sdl, const PatternOps *ops)
 /* Its index. */
 static int map_add(Sdl *sdl, ParsedColorMap *map, int *capacity, double value, Rgbft color)
 {
-    map->map.entries = builder_grow(sdl, map->map.entries, map->map.count, capacity, sizeof(ColorMapEntry));
+    map->map.entries = sdl_grow(sdl, map->map.entries, map->map.count, capacity, sizeof(ColorMapEntry));
     int i = map->map.count++;
     /* In order of value, what was written first first. */
     for (; i > 0 && map->map.entries[i - 1].value > value; i--)

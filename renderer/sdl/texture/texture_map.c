@@ -7,7 +7,7 @@
 
 static void add_entry(Sdl *sdl, ParsedTextureMap *map, double value, const ParsedTexture *texture)
 {
-    map->entries = builder_grow(sdl, map->entries, map->count, &map->capacity, sizeof *map->entries);
+    map->entries = sdl_grow(sdl, map->entries, map->count, &map->capacity, sizeof *map->entries);
     int i = map->count++;
     /* In order of value, what was written first first. */
     for (; i > 0 && map->entries[i - 1].value > value; i--)

@@ -7,14 +7,9 @@ int accept_turbulence(Sdl *sdl, Turbulence *t)
 {
     if (sdl_accept(sdl, "turbulence"))
         t->amount = sdl_vector(sdl);
-    else if (sdl_accept(sdl, "octaves"))
-        t->octaves = sdl_float(sdl);
-    else if (sdl_accept(sdl, "omega"))
-        t->omega = sdl_float(sdl);
-    else if (sdl_accept(sdl, "lambda"))
-        t->lambda = sdl_float(sdl);
     else
-        return 0;
+        return sdl_accept_float(sdl, "octaves", &t->octaves) || sdl_accept_float(sdl, "omega", &t->omega) ||
+               sdl_accept_float(sdl, "lambda", &t->lambda);
     return 1;
 }
 
@@ -37,11 +32,7 @@ static void black_hole(Sdl *sdl, Warp *warp)
     hole->radius = sdl_float(sdl);
     hole->strength = 1, hole->falloff = 2;
     while (!sdl_is(sdl, "}")) {
-        if (sdl_accept(sdl, "strength"))
-            hole->strength = sdl_float(sdl);
-        else if (sdl_accept(sdl, "falloff"))
-            hole->falloff = sdl_float(sdl);
-        else if (sdl_accept(sdl, "inverse"))
+        if (sdl_accept(sdl, "inverse"))
             hole->is_inverse = sdl_optional_bool(sdl, 1);
         else if (sdl_accept(sdl, "type"))
             sdl_float(sdl);
@@ -49,7 +40,8 @@ static void black_hole(Sdl *sdl, Warp *warp)
             hole->repeat = sdl_vector(sdl);
         else if (sdl_accept(sdl, "turbulence"))
             hole->displacement = sdl_vector(sdl);
-        else
+        else if (!sdl_accept_float(sdl, "strength", &hole->strength) &&
+                 !sdl_accept_float(sdl, "falloff", &hole->falloff))
             sdl_expected(sdl, "strength, falloff, inverse, repeat or turbulence");
         sdl_optional_comma(sdl);
     }
@@ -97,11 +89,8 @@ static void mapping(Sdl *sdl, Warp *warp)
     while (!sdl_is(sdl, "}")) {
         if (sdl_accept(sdl, "orientation"))
             set_orientation(sdl, warp, sdl_vector(sdl));
-        else if (sdl_accept(sdl, "dist_exp"))
-            warp->mapping.distance_exponent = sdl_float(sdl);
-        else if (sdl_accept(sdl, "major_radius"))
-            warp->mapping.major_radius = sdl_float(sdl);
-        else
+        else if (!sdl_accept_float(sdl, "dist_exp", &warp->mapping.distance_exponent) &&
+                 !sdl_accept_float(sdl, "major_radius", &warp->mapping.major_radius))
             sdl_expected(sdl, "orientation, dist_exp or major_radius");
         sdl_optional_comma(sdl);
     }
