@@ -78,7 +78,7 @@ function width(app) {
   };
   return h("div", { class: "card" }, h("div", {}, h("label", { for: "picture-width" }, "How wide is ", h("b", {}, name), " in reality?"),
     h("div", { class: "pair" }, numberField("picture-width", value, 0.1, 10000, put, 0.1), h("span", {}, "cm")),
-    h("p", { class: "hint" }, value ? widths[path] ? "You said so." : "Taken from its name." : "Nobody knows yet: it lies once on the surface.")));
+    h("p", { class: "hint" }, value ? widths[path] ? "You said so." : "Taken from its name." : "Not known yet: it may lie too large, or too small.")));
 }
 
 function gallery(app) {

@@ -39,7 +39,7 @@ function drawSteps() {
   refill($("#steps"), STEPS.map((step, k) => {
     const done = step.isDone(app), now = step.id === app.step, usable = isOpen(step);
     return h("li", {}, h("button", { type: "button", id: `step-${step.id}`, class: "step", "aria-current": now ? "step" : null, "aria-disabled": String(!usable), title: usable ? "" : WHY[step.id],
-      onclick: () => (usable ? app.go(step.id) : app.say(WHY[step.id])) },
+      onclick: () => (usable ? app.go(step.id) : app.say(WHY[step.id], "hint")) },
     icon(ICONS[step.id]), h("span", {}, h("span", { class: "quiet" }, `Step ${k + 1}: `), step.title), done ? h("span", { class: "tick" }, icon(ICONS.done), h("span", { class: "quiet" }, " done")) : null));
   }));
 }
@@ -106,13 +106,13 @@ function draw() {
 
 function showMessage({ detail: { text, kind, action } }) {
   const close = () => message.remove();
-  const message = h("div", { class: `message ${kind}`, role: kind === "error" ? "alert" : "status" }, icon(ICONS[kind === "error" ? "warn" : "done"]), h("span", {}, text),
+  const message = h("div", { class: `message ${kind}`, role: kind === "error" ? "alert" : "status" }, icon(ICONS[{ error: "warn", hint: "help" }[kind] || "done"]), h("span", {}, text),
     action ? button(action.label, () => {
       close();
       app.attempt(action.run);
     }) : null, iconButton("Close this message", "close", close));
   const list = $("#messages");
-  if (kind !== "error") for (const old of list.querySelectorAll(".note")) old.remove();
+  if (kind !== "error") for (const old of list.querySelectorAll(".message:not(.error)")) old.remove();
   for (const old of list.querySelectorAll(".error")) if (old.querySelector("span").textContent === text) old.remove();
   list.append(message);
   if (kind !== "error") setTimeout(close, 6000);
