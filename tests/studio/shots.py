@@ -63,7 +63,7 @@ class Recorder(Studio):
     def step(self, name):
         """A still for the docs, which is a longer frame too."""
         self.settle()
-        self.run("document.querySelectorAll('#messages .note').forEach(e => e.remove())")
+        self.run("document.querySelectorAll('#messages .message:not(.error)').forEach(e => e.remove())")
         self.frame(LONG)
         subprocess.run(["oiiotool", "--nosoftwareattrib", self.frames[-1][0], "--ch", "R,G,B", "--compression", "jpeg:82", "-o",
                         f"{self.out}/studio-{name}.jpg"], check=True)
