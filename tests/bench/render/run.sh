@@ -19,7 +19,7 @@ case $build in /*) absolute=$build ;; *) absolute=$PWD/$build ;; esac
 PATH=$absolute/bin:$PATH
 work=$build/bench/render out=$build/bench/render.txt
 turns=${BENCH_TURNS:-5} size=${BENCH_SIZE:-512}
-error_size=${BENCH_ERROR_SIZE:-256} reference_spp=${BENCH_REFERENCE_SPP:-2048}
+error_size=${BENCH_ERROR_SIZE:-256}
 artist=${RETEX_SHARED:-../shared}/scenes/living-room-bitterli
 scenes=${BENCH_SCENES:-cornell interior artists-room} left_out=''
 figures_python bench-render
@@ -40,6 +40,14 @@ spp() { # SCENE
         echo "bench-render: there is no scene $1" >&2
         return 2
         ;;
+    esac
+}
+
+# Of converged pictures: at least 16 times those of the pictures that are compared with them.
+reference_spp() { # SCENE
+    case $1 in
+    cornell) echo "${BENCH_REFERENCE_SPP:-2048}" ;;
+    *) echo "${BENCH_REFERENCE_SPP:-1024}" ;;
     esac
 }
 
@@ -82,7 +90,7 @@ kept() { # RENDERER SCENE SPP SEED FILE
 }
 
 error() { # SCENE: pictures, then the words for error.py in $compared
-    scene=$1 samples=$(spp "$1") key=$(key "$1")
+    scene=$1 samples=$(spp "$1") reference_spp=$(reference_spp "$1") key=$(key "$1")
     pictures=$work/pictures-$scene-$samples-$key
     mkdir -p "$pictures"
     rm -f "$pictures"/retex-*
