@@ -125,12 +125,22 @@ def walk_room(page, server, name, row, clean):
     result(not wrong and size == ("1280x720", "64") and "--denoise" in render and person < 300,
            f"{name}: another floor and wall, in {person} s of a person")
     [made] = glob.glob(f"{server.work}/{server.folder}/web/*")
-    page.open(serve(made))
-    page.until("Object.keys(document.querySelector('retex-room').getState().textures).length", 2)
-    walk.shot("page")
-    sources = [page.room("getState()")["textures"][target]["source"] for target in ("Floor", "Wall")]
-    result(sources[0].startswith(f"textures/{FLOOR}") and sources[1].startswith(f"textures/{WALL}") and page.message() == "",
-           f"{name}: its page is opened from a web server, with {sources}")
+    visit(made, name)
+
+
+def visit(folder, name):
+    """The page that was taken away, in a visitor's browser."""
+    page = Studio()
+    try:
+        page.size(1280, 800)
+        page.open(serve(folder))
+        page.until("Object.keys(document.querySelector('retex-room').getState().textures).length === 2", 120)
+        page.shot(f"room-{name}-page")
+        sources = [page.room("getState()")["textures"][target]["source"] for target in ("Floor", "Wall")]
+        result(sources[0].startswith(f"textures/{FLOOR}") and sources[1].startswith(f"textures/{WALL}") and page.message() == "",
+               f"{name}: its page is opened from a web server, with {sources}")
+    finally:
+        page.close()
 
 
 def model_of(folder, name):
