@@ -10,90 +10,68 @@
 #include "common/cli.h"
 #include "page/page.h"
 
-static const CliOption options[] = {
-    {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},
-    {"lossless", 0, NULL, "keep every bit of every part", 0},
-    {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
-    {"stats", 0, "FILE.json", "write sizes by use and the loss in pictures; - is standard output", 0},
-    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
-    {"levels", 0, NULL, "keep smaller sets beside it, for small pictures", 0},
-    {"level", 0, "3..8", "with --unpack: write the set that is so many times smaller", 0},
-    {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0},
-    {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
-    {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
-    {"preset", 0, "FILE", "the look that the page begins with, as of retex-combine --save-preset", 0},
-    {"web-lamps", 0, "N", "lamps that visitors can change; default 4, the dimmest others join `rest`", 0},
-    {"web-smaller", 0, "N,...", "rooms beside it, 2, 3, 4, 6 or 8 times smaller, for small screens", 0},
-    {0},
-};
-
 typedef struct Job {
     RetexPackParams params;
-    int unpack, quality_given, no_lamps;
-    int level;       /* 0: not given */
-    int web_lamps;   /* 0: not given */
-    int web_smaller[RETEX_WEB_SMALLER];
-    uint64_t memory; /* bytes */
+    int quality, unpack, no_lamps; /* quality: 0: not given */
+    int level, web_lamps;          /* 0: not given */
+    uint64_t memory;               /* bytes */
     int threads;
-    const char *input, *stats, *web, *preset;
+    const char *input, *stats;
+    Page page; /* no folder: none is asked for */
 } Job;
 
-/* Scales, divided by commas. */
-static void parse_smaller(Cli *cli, Job *job)
+static void take_codec(Cli *cli, const CliOption *option, void *member)
 {
-    int count = 0;
+    (void)option;
+    (void)member;
+    if (strcmp(cli->value, "jpeg") != 0)
+        cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
+}
+
+/* Scales, divided by commas. */
+static void take_smaller(Cli *cli, const CliOption *option, void *member)
+{
+    int *smaller = member, count = 0;
     for (const char *at = cli->value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         const int scale = *at - '0';
         if (!memchr("23468", *at, 5) || (at[1] && at[1] != ',') || count == RETEX_WEB_SMALLER)
-            cli_die(cli, "--web-smaller: expected up to %d of 2, 3, 4, 6 and 8, divided by commas, not '%s'",
+            cli_die(cli, "--%s: expected up to %d of 2, 3, 4, 6 and 8, divided by commas, not '%s'", option->name,
                     RETEX_WEB_SMALLER, cli->value);
-        job->web_smaller[count++] = scale;
+        smaller[count++] = scale;
     }
 }
 
+static const CliOption options[] = {
+    {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0,
+     CLI_NUMBER(Job, quality, 1, 100)},
+    {"lossless", 0, NULL, "keep every bit of every part", 0, CLI_INTO(Job, params.lossless)},
+    {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0, CLI_CALL_OF_ALL(take_codec)},
+    {"stats", 0, "FILE.json", "write sizes by use and the loss in pictures; - is standard output", 0,
+     CLI_INTO(Job, stats)},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0, CLI_INTO(Job, memory)},
+    {"levels", 0, NULL, "keep smaller sets beside it, for small pictures", 0, CLI_INTO(Job, params.levels)},
+    {"level", 0, "3..8", "with --unpack: write the set that is so many times smaller", 0,
+     CLI_NUMBER(Job, level, 2, 8)},
+    {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0, CLI_INTO(Job, no_lamps)},
+    {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0, CLI_INTO(Job, unpack)},
+    {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0, CLI_INTO(Job, page.folder)},
+    {"preset", 0, "FILE", "the look that the page begins with, as of retex-combine --save-preset", 0,
+     CLI_INTO(Job, page.preset)},
+    {"web-lamps", 0, "N", "lamps that visitors can change; default 4, the dimmest others join `rest`", 0,
+     CLI_NUMBER(Job, web_lamps, 1, RETEX_PARAMETERS_MAX)},
+    {"web-smaller", 0, "N,...", "rooms beside it, 2, 3, 4, 6 or 8 times smaller, for small screens", 0,
+     CLI_CALL(Job, page.params.smaller, take_smaller)},
+    {0},
+};
+
 static void parse(Cli *cli, Job *job)
 {
-    const CliOption *option;
-    while ((option = cli_next(cli))) {
-        if (option == &cli_positional) {
-            if (job->input)
-                cli_surplus(cli, "one input is enough");
-            job->input = cli->value;
-        } else if (strcmp(option->name, "quality") == 0) {
-            job->params.quality = (int)cli_integer(cli, option, 1, 100);
-            job->quality_given = 1;
-        } else if (strcmp(option->name, "lossless") == 0) {
-            job->params.lossless = 1;
-        } else if (strcmp(option->name, "codec") == 0) {
-            if (strcmp(cli->value, "jpeg") != 0)
-                cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
-        } else if (strcmp(option->name, "stats") == 0) {
-            job->stats = cli->value;
-        } else if (strcmp(option->name, "levels") == 0) {
-            job->params.levels = 1;
-        } else if (strcmp(option->name, "level") == 0) {
-            job->level = (int)cli_integer(cli, option, 2, 8);
-        } else if (strcmp(option->name, "no-lamps") == 0) {
-            job->no_lamps = 1;
-        } else if (strcmp(option->name, "web") == 0) {
-            job->web = cli->value;
-        } else if (strcmp(option->name, "preset") == 0) {
-            job->preset = cli->value;
-        } else if (strcmp(option->name, "web-lamps") == 0) {
-            job->web_lamps = (int)cli_integer(cli, option, 1, RETEX_PARAMETERS_MAX);
-        } else if (strcmp(option->name, "web-smaller") == 0) {
-            parse_smaller(cli, job);
-        } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_size(cli, option);
-        } else {
-            job->unpack = 1;
-        }
-    }
+    cli_parse(cli, job, CLI_ARGUMENTS(&job->input), "one input is enough");
     if (!job->input)
         cli_die(cli, "no %s given; try --help", job->unpack ? "pack" : "set");
-    if (job->params.lossless && job->quality_given)
+    if (job->params.lossless && job->quality)
         cli_die(cli, "--quality and --lossless exclude each other");
-    if (job->unpack && (job->params.lossless || job->quality_given))
+    if (job->unpack && (job->params.lossless || job->quality))
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
     if (job->unpack && job->no_lamps)
         cli_die(cli, "--no-lamps is of packing");
@@ -105,14 +83,18 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--level reads the pack twice: it must be a file");
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
-    if (job->web && (job->unpack || job->params.lossless || job->params.levels || job->stats || cli->output))
+    if (job->page.folder && (job->unpack || job->params.lossless || job->params.levels || job->stats || cli->output))
         cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless, --levels nor --stats");
-    if (job->web_lamps && (!job->web || job->no_lamps))
+    if (job->web_lamps && (!job->page.folder || job->no_lamps))
         cli_die(cli, "--web-lamps is of --web, and of sets that keep their lamps");
-    if (job->preset && !job->web)
+    if (job->page.preset && !job->page.folder)
         cli_die(cli, "--preset is of --web");
-    if (*job->web_smaller && !job->web)
+    if (*job->page.params.smaller && !job->page.folder)
         cli_die(cli, "--web-smaller is of --web");
+    if (job->quality)
+        job->params.quality = job->page.params.quality = job->quality;
+    if (job->web_lamps)
+        job->page.params.lamps = job->web_lamps;
     job->threads = cli->threads;
     job->params.warn = cli_warn_text;
     job->params.warn_context = cli;
@@ -211,19 +193,15 @@ static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 
 static int run_web(Cli *cli, const Job *job)
 {
-    Page page = {job->web, job->preset, RETEX_WEB_INIT};
     RetexError err = {0};
     RetexSet *set = NULL;
-    page.params.quality = job->quality_given ? job->params.quality : page.params.quality;
-    page.params.lamps = job->web_lamps ? job->web_lamps : page.params.lamps;
-    memcpy(page.params.smaller, job->web_smaller, sizeof page.params.smaller);
     cli_input(cli, job->input, "a set, as from retex-render");
     cli_reads(cli, "the set", job->input);
-    page_announce(cli, &page);
+    page_announce(cli, &job->page);
     int code = open_set(cli, job, &set, &err);
     if (!code) {
         cli_check_pixels(cli, set, job->input);
-        code = page_write(cli, &page, job->input, set, &err);
+        code = page_write(cli, &job->page, job->input, set, &err);
     }
     retex_set_close(&set);
     if (code)
@@ -245,13 +223,13 @@ int main(int argc, char **argv)
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "
             "loss."};
-    Job job = {.params = RETEX_PACK_INIT, .memory = CLI_MEMORY_DEFAULT};
+    Job job = {.params = RETEX_PACK_INIT, .memory = CLI_MEMORY_DEFAULT, .page = {.params = RETEX_WEB_INIT}};
     RetexError err = {0};
     RetexSet *set = NULL;
     size_t bytes = 0;
 
     parse(&cli, &job);
-    if (job.web)
+    if (job.page.folder)
         return run_web(&cli, &job);
     const char *output = cli_output(&cli);
     cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
