@@ -20,7 +20,7 @@ CLICK, KEY, PANEL = 2, 1, 5  # seconds of a person
 ROOMS = {
     "voxel-room": ("its textures are an atlas", (0.5, 0.95), (0.12, 0.2), "3"),
     "dream-apartment": ("a closed room, by meshopt", (0.35, 0.88), (0.42, 0.12), "1"),
-    "hotel-room": ("compressed by meshopt", (0.85, 0.85), (0.3, 0.25), "1"),
+    "hotel-room": ("compressed by meshopt", (0.85, 0.85), (0.64, 0.25), "1"),
     "living-room": ("a scene", (0.6, 0.75), (0.84, 0.62), "1"),
 }
 FLOOR, WALL = "walnut", "damask"  # pictures of scenes/textures
