@@ -11,9 +11,8 @@ $ ls
 > render
 
 # Killed at any moment.
-$ (for k in 05 1 15 2 25 3 4; do timeout --foreground -s KILL 0.$k ./render --resume -o k.exr && break; done) \
+$ (for k in 05 1 15 2 25 3 4; do timeout --foreground -s KILL 0.$k ./render --resume -o k.exr && break; done; true) \
 +     2>/dev/null
-= 137
 $ ./render --resume --threads 1 -o k.exr
 $ cmp k.exr ref.exr
 $ ls
