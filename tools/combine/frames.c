@@ -60,7 +60,7 @@ static int make_frame(const Cli *cli, Job *job, int one_set, KeptTextures *kept,
     const double began = retex_clock_seconds();
     int code = one_set ? RETEX_OK : job_open(cli, job, err);
     if (!code)
-        code = job_check_textures(job, job->textures.specs, job->textures.count, err);
+        code = retex_textures_check(job->set, job->textures.specs, job->textures.count, err);
     if (!code)
         code = job_make(cli, job, kept, began, err);
     if (!one_set)

@@ -134,11 +134,6 @@ void job_check_output(const Cli *cli, const Job *job)
         cli_fail(cli, &err);
 }
 
-int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err)
-{
-    return retex_textures_check(job->set, specs, count, err);
-}
-
 int job_develop(Job *job, const RetexEdit *edit, RetexError *err)
 {
     job->develop = (RetexDevelop)RETEX_DEVELOP_INIT;

@@ -47,8 +47,6 @@ void job_close(Job *job);
 /* Parse --crop or --region: x, y, width, height; and --size: width, height. */
 void job_take_rectangle(Cli *cli, const CliOption *option, void *rectangle);
 void job_take_size(Cli *cli, const CliOption *option, void *size);
-/* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
-int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
 /* Develop the picture as an edit says, and show it in its view, which is borrowed from the edit. */
 int job_develop(Job *job, const RetexEdit *edit, RetexError *err);
 /* The same, and give the parameters of the set the values that the edit has for its lamps. */

@@ -147,7 +147,7 @@ static int lights_text(void *context, int row, char **text, RetexError *err)
 static int check_texture(void *context, const RetexTextureSpec *spec, RetexError *err)
 {
     const Job *job = ((const Table *)context)->job;
-    return retex_set_find_target(job->set, spec->target) < 0 ? RETEX_OK : job_check_textures(job, spec, 1, err);
+    return retex_set_find_target(job->set, spec->target) < 0 ? RETEX_OK : retex_textures_check(job->set, spec, 1, err);
 }
 
 static int complete(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count)
