@@ -121,7 +121,7 @@ def press(page, selector, key="Enter"):
 def keyboard(page, work):
     """From a model to a picture without a pointer."""
     write_project(work)
-    server = Server(work, "--textures", f"{TOP}/scenes/textures")
+    server = Server(work, "--textures", f"{TOP}/scenes/textures", opened="room.pov")
     small_scene(work)
     page.open_studio(server)
     page.keys = page.clicks = 0
