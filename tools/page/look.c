@@ -40,20 +40,19 @@ static int check_view(const RetexEdit *edit, const char *preset, RetexError *err
 /* Pages show no normal maps, and no roughness of folders. */
 static int leave_out_maps(RetexTextureSpec *spec, const Cli *cli, RetexError *err)
 {
-    char *rough = NULL, *normal = NULL;
-    int code = retex_texture_file(&normal, spec, RETEX_TEXTURE_FILE_NORMAL, err);
+    char *rough = NULL;
+    int code = RETEX_OK;
     if (spec->normal != RETEX_NORMAL_NONE) {
         if (strcmp(spec->finish, "none") != 0)
             cli_warn(cli, "%s: a page does not show normal maps: %s", spec->target, spec->finish);
         spec->normal = RETEX_NORMAL_NONE;
         memset(spec->finish, 0, sizeof spec->finish);
-    } else if (!code && !spec->finish[0]) {
+    } else if (!spec->finish[0]) {
         code = retex_texture_file(&rough, spec, RETEX_TEXTURE_FILE_FINISH, err);
         if (!code && rough && spec->nfinishes > 1)
             cli_warn(cli, "%s: a page does not show the roughness of a folder: %s", spec->target, rough);
     }
     free(rough);
-    free(normal);
     return code;
 }
 
