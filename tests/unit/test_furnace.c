@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "lib_bsdf.h"
+#include "lib_random_texture.h"
 #include "lib_scene_text.h"
 #include "path/leaves.h"
 #include "path/shading.h"
@@ -86,78 +87,31 @@ static float furnace(const char *text, const Seen *seen, int count, int light_so
 
 /* ---- textures at random ---- */
 
-static uint32_t pick_state;
-static int pick(int count)
-{
-    pick_state = pick_state * 1664525u + 1013904223u;
-    return (int)((pick_state >> 8) % (uint32_t)count);
-}
-#define PICK(...) pick_one((const char *[]){__VA_ARGS__}, (int)(sizeof((const char *[]){__VA_ARGS__}) / sizeof(char *)))
-static const char *pick_one(const char **list, int count)
-{
-    return list[pick(count)];
-}
-
-static void add(char *text, const char *more)
-{
-    strcat(text, more);
-    strcat(text, " ");
-}
-
-/* Numbers up to 1: no more than that is asked for. rough: highlights are wide enough for a coarse integral. */
-static void add_finish(char *text, int rough)
-{
-    add(text, "finish {");
-    add(text, PICK("diffuse 0", "diffuse .6", "diffuse 1", "diffuse .5, .5", "diffuse 1, 1", "diffuse albedo .8",
-                   "diffuse albedo 1, 1"));
-    add(text, PICK("", "brilliance 4", "brilliance .5", "brilliance 0"));
-    add(text, PICK("", "", "crand .3"));
-    add(text, PICK("", "specular .3", "specular 1", "specular albedo 1", "specular albedo .4"));
-    add(text, rough ? PICK("roughness .05", "roughness .3", "roughness 1")
-                    : PICK("roughness .0005", "roughness .05", "roughness 1"));
-    add(text, PICK("", "phong .3", "phong 1", "phong albedo 1", "phong albedo .4"));
-    add(text, rough ? PICK("phong_size 1", "phong_size 5") : PICK("phong_size 1", "phong_size 40", "phong_size 500"));
-    add(text, PICK("", "metallic", "metallic .5"));
-    add(text, PICK("", "", "reflection .3", "reflection 1", "reflection rgb <1,.2,.1>", "reflection { 1 fresnel }",
-                   "reflection { .2, 1 falloff 3 metallic }", "reflection { .5 exponent .3 metallic .5 }",
-                   "reflection { 0, 1 fresnel exponent 2 }"));
-    add(text, PICK("", "conserve_energy"));
-    add(text, PICK("", "", "irid { .35 thickness .5 turbulence .5 }", "irid { 1 thickness 2 }"));
-    if (!rough && pick(5) == 0)
-        add(text, PICK("retex { metallic 1 roughness .5 }", "retex { transmission 1 ior 1.3 }",
-                       "retex { transmission 1 roughness .5 ior 1.5 }", "retex { metallic 1 roughness .01 }",
-                       "retex { metallic 1 roughness .4 clearcoat 1 clearcoat_roughness .3 }",
-                       "retex { metallic 1 clearcoat .7 sheen rgb 1 sheen_roughness .5 }",
-                       "retex { transmission 1 roughness .3 clearcoat 1 sheen rgb <1,.5,.2> }"));
-    add(text, PICK("", "", "use_alpha"));
-    add(text, "}");
-}
-
 static void add_texture(char *text, int rough, int opaque)
 {
-    add(text, "texture { pigment {");
-    add(text, opaque ? "rgb 1"
+    add_text(text, "texture { pigment {");
+    add_text(text, opaque ? "rgb 1"
                      : PICK("rgb 1", "rgbf 1", "rgbt <1,1,1,.5>", "rgbft <1,1,1,.3,.3>", "rgbf <.3,.5,.2,.9>",
                             "rgbf <.7,.1,.7,.5>"));
-    add(text, "}");
-    add_finish(text, rough);
-    add(text, PICK("", "normal { bumps 3 }", "normal { dents 2 }", "normal { granite 1 }", "normal { wrinkles 4 }"));
-    add(text, "}");
+    add_text(text, "}");
+    random_finish(text, rough);
+    random_normal(text);
+    add_text(text, "}");
 }
 
 static const char *random_scene(int rough)
 {
     static char text[8192];
     *text = 0;
-    add(text, PICK("#version 3.7;", "#version 3.6;", "#version 3.1;"));
-    add(text, "global_settings { assumed_gamma 1 } plane { -z, 0");
+    add_text(text, PICK("#version 3.7;", "#version 3.6;", "#version 3.1;"));
+    add_text(text, "global_settings { assumed_gamma 1 } plane { -z, 0");
     for (int layers = PICK("1", "1", "2", "3")[0] - '0', k = 0; k < layers; k++)
         add_texture(text, rough, rough);
-    add(text, "interior {");
-    add(text, PICK("ior 1", "ior 1", "ior 1.5", "ior .8"));
-    add(text, "}");
-    add(text, PICK("", "", "double_illuminate"));
-    add(text, "}");
+    add_text(text, "interior {");
+    add_text(text, PICK("ior 1", "ior 1", "ior 1.5", "ior .8"));
+    add_text(text, "}");
+    add_text(text, PICK("", "", "double_illuminate"));
+    add_text(text, "}");
     return text;
 }
 
