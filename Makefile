@@ -5,6 +5,7 @@
 #   make check-all    also tests that take long or need heavy programs
 #   make check-faults let every allocation, file and thread call fail in turn; ten minutes
 #   make check-mutants build each defect of tests/mutants/list.txt; a test must fail
+#   make check-branches AREA='film path' COUNT=60 SEED=1   change instructions of compiled files; a test must notice
 #   make check-update CASE=golden/NAME   update a golden reference, printing the change
 #   make asan, tsan   run the unit and command-line tests with the sanitizers
 #   make fuzz         run mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input

@@ -100,7 +100,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
+.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) $(BUILD)/tests/web/player.js all
@@ -117,6 +117,14 @@ check-all: tests sanitized-fuzz
 # Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
 check-mutants: tests
 	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants
+# Instructions of compiled files, changed one at a time: in a build at -O1, with another that counts what tests reach.
+AREA ?= all
+check-branches:
+	@[ "$$(uname -m)" = x86_64 ] || exit 0; \
+	$(MAKE) BUILD=$(BUILD)/branches/plain CFLAGS='-O1 -g -save-temps=obj' CXXFLAGS='-O1 -g' all unit-tests test-programs && \
+	$(MAKE) BUILD=$(BUILD)/branches/covered CFLAGS='-O1 -g --coverage' CXXFLAGS='-O1 -g' LDFLAGS=--coverage \
+	    CPPFLAGS=-D__SANITIZE_ADDRESS__ all unit-tests test-programs # the decoder must be free to write what it counted
+	@BUILD=$(BUILD) tests/branches/run.py $(AREA)
 check-faults: tests
 	@RETEX_FAULTS=all $(RUN_CHECK) faults
 check-unit check-cli check-web check-python check-man check-docs check-golden check-fidelity: tests
