@@ -7,22 +7,12 @@
 #include <retex/retex.h>
 
 #include "common/cli.h"
-#include "common/compositor.h"
 
 /* What the command line asks for. */
 typedef struct Request {
     const char *path, *layers;
     int json, checking;
-    CompositorKind script;
 } Request;
-
-static void take_script(Cli *cli, const CliOption *option, void *to)
-{
-    CompositorKind *script = to;
-    if (*script)
-        cli_die(cli, "one script at a time: --blender or --nuke");
-    *script = strcmp(option->name, "nuke") == 0 ? COMPOSITOR_NUKE : COMPOSITOR_BLENDER;
-}
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the manifest and the sizes as JSON", 0, CLI_INTO(Request, json)},
@@ -30,9 +20,6 @@ static const CliOption options[] = {
      CLI_INTO(Request, checking)},
     {"layers", 0, "FILE.exr", "write the set's images as the layers of a flat EXR, for compositors", 0,
      CLI_INTO(Request, layers)},
-    {"blender", 0, NULL, "print a script of nodes for Blender's compositor that reads FILE.exr", 0,
-     CLI_CALL(Request, script, take_script)},
-    {"nuke", 0, NULL, "print such a script for Nuke", 0, CLI_CALL(Request, script, take_script)},
     {0},
 };
 
@@ -380,18 +367,6 @@ static int check(const Cli *cli, const char *path)
     return CLI_OK;
 }
 
-/* Scripts are read in any folder. */
-static int print_script(const Cli *cli, const Request *request, const RetexSet *set, RetexError *err)
-{
-    char *layers = realpath(request->layers, NULL);
-
-    if (!layers)
-        return retex_fail(err, RETEX_EIO, "cannot find %s again", request->layers);
-    const int code = compositor_print(cli->answer, request->script, set, layers, err);
-    free(layers);
-    return code;
-}
-
 static int write_layers(const Cli *cli, const Request *request)
 {
     RetexSet *set = NULL;
@@ -400,13 +375,9 @@ static int write_layers(const Cli *cli, const Request *request)
     if (retex_set_open(request->path, &set, NULL, cli->threads, &error))
         cli_fail(cli, &error);
     cli_check_pixels(cli, set, request->path);
-    int code = request->script ? compositor_check(set, request->path, &error) : RETEX_OK;
-    if (!code)
-        code = retex_set_load(set, cli->threads, &error);
+    int code = retex_set_load(set, cli->threads, &error);
     if (!code)
         code = retex_set_write_layers(set, request->layers, cli->threads, &error);
-    if (!code && request->script)
-        code = print_script(cli, request, set, &error);
     retex_set_close(&set);
     if (code)
         cli_error(cli, &error);
@@ -419,9 +390,6 @@ static void check_request(Cli *cli, const Request *request)
         cli_die(cli, "no set given");
     if (request->json + request->checking + (request->layers != NULL) > 1)
         cli_die(cli, "--json, --check and --layers exclude each other");
-    if (request->script && !request->layers)
-        cli_die(cli, "--%s prints a script that reads a file of layers: add --layers FILE.exr",
-                request->script == COMPOSITOR_NUKE ? "nuke" : "blender");
     if (request->layers && !cli_ends_with(request->layers, ".exr"))
         cli_die(cli, "--layers writes OpenEXR: expected a name that ends in .exr, not `%s`", request->layers);
     cli_input(cli, request->path, "a set, as from retex-render");

@@ -8,8 +8,6 @@ $ retex-info --complete --
 > --json	print the manifest and the sizes as JSON
 > --check	check the checksums of all parts; exit status 1 if one is wrong
 > --layers	write the set's images as the layers of a flat EXR, for compositors
-> --blender	print a script of nodes for Blender's compositor that reads FILE.exr
-> --nuke	print such a script for Nuke
 > --output	write to FILE; - is standard output
 > --threads	use N threads; 0, the default, uses all cores
 > --safe	refuse devices and rare picture formats; scenes read only their own folder; limits of 2G, 60 seconds and 33177600 pixels, unless others are given; also RETEX_SAFE=1
@@ -22,7 +20,7 @@ $ retex-info --complete --
 > --help	print this help and exit
 > --version	print the version and exit
 $ retex-info --complete - | cut -f1 | tr '\n' ' '
-> --json --check --layers --blender --nuke --output -o --threads --safe --accept-damaged --max-memory --max-time --max-pixels --quiet -q --verbose -v --help -h --version -V
+> --json --check --layers --output -o --threads --safe --accept-damaged --max-memory --max-time --max-pixels --quiet -q --verbose -v --help -h --version -V
 $ retex-combine --complete room.exr --texture ''
 > Floor=	40.0 % of the picture
 > Wall=	40.0 % of the picture
@@ -183,7 +181,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-comple
 > retex-combine room.exr --batch-root=: <retex-combine><room.exr><--batch-root=>
 >     all: <retex-combine><room.exr><--batch-root=a root><folder>
 > retex-info --: <retex-info><-->
->     all: <retex-info><--accept-damaged><--blender><--check><--help><--json><--layers><--max-memory><--max-pixels><--max-time><--nuke><--output><--quiet><--safe><--threads><--verbose><--version>
+>     all: <retex-info><--accept-damaged><--check><--help><--json><--layers><--max-memory><--max-pixels><--max-time><--output><--quiet><--safe><--threads><--verbose><--version>
 > retex-render box: <retex-render><box.pov>
 >     all: <retex-render><box.pov>
 > retex-render --layout p: <retex-render><--layout><paper>
@@ -232,7 +230,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" fish "$PWD/a root/usr/share/fish/vendor
 > retex-combine room.exr --cross : 0 2 3
 > retex-combine room.exr --batch : a root/ folder/ table.csv
 > retex-combine room.exr --batch-root=: --batch-root=a root/ --batch-root=folder/
-> retex-info --: --accept-damaged --blender --check --help --json --layers --max-memory --max-pixels --max-time --nuke --output --quiet --safe --threads --verbose --version
+> retex-info --: --accept-damaged --check --help --json --layers --max-memory --max-pixels --max-time --output --quiet --safe --threads --verbose --version
 > retex-render box: box.pov
 > retex-render --layout p: paper
 > retex-render --layout=p: --layout=paper
