@@ -8,6 +8,7 @@
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
 #include "retex-render.h"
+#include "common/set_kind.h"
 #include "common/watchdog.h"
 #include "render/mattes.h"
 
@@ -44,15 +45,14 @@ static int announce_files_of_scene(Arguments *a, const Scene *scene, RetexError 
     return code;
 }
 
-/* The kind of output by its name: a pack, a set if it is EXR and a set is rendered, otherwise a picture. */
-typedef enum OutputKind { OUTPUT_SET, OUTPUT_PACK, OUTPUT_PICTURE } OutputKind;
-
-static OutputKind output_kind(const Arguments *a, const char *output)
+/* The kind of output by its name: a pack, a set if it is EXR and a set is rendered, otherwise NULL: a picture. */
+static const SetKind *output_kind(const Arguments *a, const char *output)
 {
-    int exr = !strcmp(output, "-") || !strncmp(output, "/dev/", 5) || cli_ends_with(output, ".exr");
-    if (cli_ends_with(output, ".retex"))
-        return OUTPUT_PACK;
-    return exr && (!a->render.plain || a->render.aovs || a->render.control_data) ? OUTPUT_SET : OUTPUT_PICTURE;
+    const int has_set = !a->render.plain || a->render.aovs || a->render.control_data;
+    const SetKind *kind = set_kind_of_name(output);
+    if (!kind && (!strcmp(output, "-") || !strncmp(output, "/dev/", 5)))
+        kind = &set_kind_exr;
+    return kind == &set_kind_exr && !has_set ? NULL : kind;
 }
 
 /* Finished rows are kept in a file beside the output. */
@@ -108,22 +108,21 @@ static int keeps_data(const Arguments *a, const char *output)
 {
     if (!output || !a->ntargets || a->render.plain)
         return 0;
-    return a->render.nshards || a->nmerged || output_kind(a, output) == OUTPUT_SET;
+    return a->render.nshards || a->nmerged || output_kind(a, output) == &set_kind_exr;
 }
 
 /* Before the render: check that the output can be written and holds all that is asked for. */
 static void check_output(const Arguments *a, const char *output)
 {
     RetexError err;
-    OutputKind kind = output_kind(a, output);
-    if (kind == OUTPUT_PICTURE && !a->render.nshards ? retex_image_write_check(output, NULL, &err)
-                                                     : retex_set_write_check(output, &err))
+    const SetKind *kind = output_kind(a, output);
+    if (!kind && !a->render.nshards ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
         cli_fail(a->cli, &err);
     if (a->render.nshards)
         return;
-    if (kind == OUTPUT_PICTURE && a->render.aovs && !a->aov_dir)
+    if (!kind && a->render.aovs && !a->aov_dir)
         cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);
-    if (kind == OUTPUT_PICTURE && !a->render.plain && a->ntargets)
+    if (!kind && !a->render.plain && a->ntargets)
         cli_warn(a->cli, "%s holds the picture only: a set needs .exr or .retex", output);
 }
 
@@ -150,18 +149,10 @@ static int round_set(const Arguments *a, RetexSet *set, const char *output, Rete
 
 static int write_result(Arguments *a, RetexSet *set, const char *output, RetexError *err)
 {
-    RetexStoreParams store = RETEX_STORE_INIT;
-    RetexPackParams pack = RETEX_PACK_INIT;
+    const SetKind *kind = output_kind(a, output);
     const int threads = a->cli->threads;
-    switch (output_kind(a, output)) {
-    case OUTPUT_PACK:
-        return retex_pack_write(set, output, &pack, NULL, threads, err);
-    case OUTPUT_SET:
-        return retex_set_write(set, NULL, output, &store, threads, err);
-    case OUTPUT_PICTURE:
-        break;
-    }
-    return retex_image_write(&retex_set_part(set, 0)->image, output, NULL, threads, err);
+    return kind ? kind->write(set, output, threads, err)
+                : retex_image_write(&retex_set_part(set, 0)->image, output, NULL, threads, err);
 }
 
 static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)

@@ -6,11 +6,11 @@
 #include <retex/clock.h>
 #include <retex/denoise.h>
 #include <retex/denoise_picture.h>
-#include <retex/pack.h>
 #include <retex/set_file.h>
 
 #include "common/cli.h"
 #include "common/picture_kind.h"
+#include "common/set_kind.h"
 
 /* Strips take as long as the whole set in memory, and a third of the memory at 1920 x 1080. */
 #define MEMORY_DEFAULT ((uint64_t)512 << 20)
@@ -105,7 +105,7 @@ static void check_ending(const Cli *cli, const char *output, const char *picture
     if (is_other && !picture)
         cli_die(cli, "%s: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine",
                 output);
-    if (is_other || (picture && cli_ends_with(output, ".retex")))
+    if (is_other || (picture && set_kind_of_name(output) == &set_kind_pack))
         cli_die(cli, "%s: a denoised picture is an OpenEXR file, .exr, as %s is", output, picture);
 }
 
@@ -142,10 +142,8 @@ static int denoise_picture(Cli *cli, Request *r, const char *output)
 
 static int write_set(const Cli *cli, RetexSet *set, const char *output, RetexError *err)
 {
-    RetexStoreParams store = RETEX_STORE_INIT;
-    RetexPackParams pack = RETEX_PACK_INIT;
-    return cli_ends_with(output, ".retex") ? retex_pack_write(set, output, &pack, NULL, cli->threads, err)
-                                           : retex_set_write(set, NULL, output, &store, cli->threads, err);
+    const SetKind *kind = set_kind_of_name(output);
+    return (kind ? kind : &set_kind_exr)->write(set, output, cli->threads, err);
 }
 
 int main(int argc, char **argv)

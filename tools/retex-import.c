@@ -22,6 +22,7 @@
 
 #include <retex/retex.h>
 
+#include "common/set_kind.h"
 #include "common/cli.h"
 #include "common/confine.h"
 #include "import/import.h"
@@ -387,13 +388,12 @@ static void parse(Cli *cli, Request *r)
 static int import_picture(Cli *cli, const char *path, const Request *request)
 {
     RetexDenoisePictureParams params = RETEX_DENOISE_PICTURE_INIT;
-    RetexStoreParams store = RETEX_STORE_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
     if (request->first)
         cli_die(cli, "--%s is for models: %s is a picture", request->first, path);
     const char *output = cli_output(cli);
-    if (!cli_ends_with(output, ".exr") && strcmp(output, "-") != 0)
+    if (set_kind_of_name(output) != &set_kind_exr && strcmp(output, "-") != 0)
         cli_die(cli, "-o %s: a picture with light groups becomes a set: expected a name that ends in .exr", output);
     if (request->other_half) {
         cli_input(cli, request->other_half, "the other half");
@@ -408,7 +408,7 @@ static int import_picture(Cli *cli, const char *path, const Request *request)
     params.note_context = cli;
     if (retex_set_write_check(output, &err) ||
         retex_set_read_light_groups(&set, path, &params, cli->budget, cli->threads, &err) ||
-        retex_set_write(set, NULL, output, &store, cli->threads, &err))
+        set_kind_exr.write(set, output, cli->threads, &err))
         cli_fail(cli, &err);
     const RetexSetInfo info = retex_set_info(set);
     cli_info(cli, "%s: %d x %d, %d lamps", strcmp(output, "-") == 0 ? "standard output" : output, info.width,

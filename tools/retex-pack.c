@@ -8,6 +8,7 @@
 #include <retex/set_file.h>
 
 #include "common/cli.h"
+#include "common/set_kind.h"
 #include "page/page.h"
 
 typedef struct Job {
@@ -233,7 +234,7 @@ int main(int argc, char **argv)
         return run_web(&cli, &job);
     const char *output = cli_output(&cli);
     cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
-    if (cli_ends_with(output, job.unpack ? ".retex" : ".exr"))
+    if (set_kind_of_name(output) == (job.unpack ? &set_kind_pack : &set_kind_exr))
         cli_die(&cli,
                 job.unpack ? "%s: --unpack writes an OpenEXR file, .exr"
                            : "%s: a pack is no OpenEXR file; its name ends in .retex",
@@ -249,8 +250,7 @@ int main(int argc, char **argv)
         cli_fail(&cli, &err);
     cli_check_pixels(&cli, set, job.input);
     if (job.unpack) {
-        RetexStoreParams store = RETEX_STORE_INIT;
-        code = retex_set_write(set, NULL, output, &store, cli.threads, &err);
+        code = set_kind_exr.write(set, output, cli.threads, &err);
     } else {
         code = retex_pack_write(set, output, &job.params, &bytes, cli.threads, &err);
         if (!code && job.stats)

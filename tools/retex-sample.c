@@ -1,6 +1,7 @@
 /* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
 #include "common/kept_textures.h"
 #include "common/picture_kind.h"
+#include "common/set_kind.h"
 #include "common/texture_args.h"
 
 typedef struct Job {
@@ -38,7 +39,7 @@ static void parse(Cli *cli, Job *job)
 static void check_ending(const Cli *cli, const char *output)
 {
     const PictureKind *kind = picture_kind_of_name(output);
-    if ((kind && strcmp(kind->ending, "exr") != 0) || cli_ends_with(output, ".retex"))
+    if ((kind && strcmp(kind->ending, "exr") != 0) || set_kind_of_name(output) == &set_kind_pack)
         cli_die(cli, "%s: samples are an OpenEXR file, .exr; pictures are made by retex-combine", output);
 }
 

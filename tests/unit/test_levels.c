@@ -14,6 +14,7 @@
 
 #include <retex/retex.h>
 
+#include "picture/bridge_load.h"
 #include "picture/jpeg_read.h"
 #include "picture/png_read.h"
 #include "lib_test.h"

@@ -9,6 +9,7 @@
 
 #include <retex/host/uv_stats.h>
 
+#include "pack/open.h"
 #include "pack/strips.h"
 #include "pack/plan.h"
 

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "pack/open.h"
 #include "pack/strips.h"
 #include "pack/jpeg_kernel.h"
 #include "pack/plan.h"

@@ -9,6 +9,7 @@
 
 #include "base/half.h"
 #include "lib_folder.h"
+#include "pack/open.h"
 #include "pack/strips.h"
 #include "pack/format.h"
 

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "pack/plan.h"
+#include "pack/open.h"
 #include "pack/strips.h"
 #include "set/steps.h"
 

@@ -12,6 +12,7 @@
 
 #include "base/half.h"
 #include "base/value_check.h"
+#include "pack/open.h"
 #include "pack/strips.h"
 #include "set/rows.h"
 

@@ -5,21 +5,7 @@
 #include <retex/host/uv_stats.h>
 
 #include "compact/light.h"
-
-/* Footprints of a kind at a scale: one pixel for a block of scale x scale of the picture's. The last one may be of
- * whole pixels that a surface covers evenly: parallelograms, whose axes its spread is (uniform.h). */
-typedef struct RetexCompactClusters {
-    int count;
-    int whole; /* the one of whole pixels, or -1; while they are made it is not counted */
-    RetexImage uv[RETEX_SHARES_MAX], spread[RETEX_SHARES_MAX];
-    RetexImage weight[RETEX_SHARES_MAX];         /* share of all light or, with `interreflected`, of single-hit light */
-    RetexImage interreflected[RETEX_SHARES_MAX]; /* share of interreflected light; unallocated without split */
-    RetexImage albedo;                           /* of all of them */
-    int scale, split;
-    unsigned char *lit;               /* while they are made: blocks that have light */
-    double *further, *all;            /* while they are made with split: sums of interreflected and all light, by row */
-    struct RetexUniformPixel *pixels; /* what uniform pixels are looked for in (uniform.h), or NULL */
-} RetexCompactClusters;
+#include "compact/merged.h"
 
 /* Merge the clusters of each block, weighted by light, into at most as many as the kind has in a pixel. Blocks without
  * light copy the clusters of a neighbour, because enlarging interpolates between them. Interreflected light has weights

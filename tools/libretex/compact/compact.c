@@ -10,6 +10,7 @@
 #include <retex/host/set_build.h>
 
 #include "compact/build.h"
+#include "compact/compact.h"
 #include "compact/search.h"
 #include "set/parts.h"
 

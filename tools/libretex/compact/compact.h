@@ -2,24 +2,7 @@
 #ifndef RETEX_COMPACT_COMPACT_H
 #define RETEX_COMPACT_COMPACT_H
 
-#include <retex/set.h>
-
-/* Begin with RETEX_COMPACT_INIT. */
-typedef struct RetexCompactParams {
-    double psnr; /* dB, 20 to 120: what pictures of the compact set should have at least against the set's own, measured
-                    as retex_metrics does it, but in part of the set and with waves for textures, and not counting noise
-                    that averages away; default 55 */
-    int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
-    int interreflection; /* later ones, */
-    int gain;            /* and gains. 0, the default: as many times as psnr allows. */
-    double noise; /* 0 to 1: how freely noise of the set is taken away, by which pictures of the compact set differ from
-                     the set's more than by psnr, but not from the truth; default 1 */
-    double lamps; /* dB: the same of pictures by one lamp, looked at as brightly as the whole; default 0: some less than
-                     psnr */
-    RetexWarn *warn; /* told, in the calling thread, why a set of layout footprints stays as it is; NULL = nobody */
-    void *warn_context;
-} RetexCompactParams;
-#define RETEX_COMPACT_INIT { 55, 0, 0, 0, 1, 0, NULL, NULL }
+#include "compact/params.h"
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.6 everywhere;

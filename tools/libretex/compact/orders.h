@@ -2,7 +2,7 @@
 #ifndef RETEX_COMPACT_ORDERS_H
 #define RETEX_COMPACT_ORDERS_H
 
-#include "compact/light.h"
+#include "compact/kinds.h"
 
 /* List a kind's gains, and how each term is divided among them. */
 int retex_compact_orders_make(RetexCompactKind *kind, const RetexCompactLight *light, RetexCompactMixed mixed,

@@ -3,7 +3,7 @@
 #define RETEX_COMPACT_SEARCH_H
 
 #include "compact/build.h"
-#include "compact/compact.h"
+#include "compact/params.h"
 
 /* The scales with the lowest rate at params->psnr; scales that params fix are kept. */
 int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *light, const RetexCompactParams *params,

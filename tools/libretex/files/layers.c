@@ -7,12 +7,11 @@
 #include <string.h>
 
 #include <retex/budget.h>
-#include <retex/pack.h>
 #include <retex/set_file.h>
 
 #include "exr/io.h"
+#include "files/set_format.h"
 #include "io/input.h"
-#include "pack/strips.h"
 #include "set/set.h"
 
 struct RetexLayers {
@@ -35,14 +34,13 @@ static int check_pixels(const RetexLayers *layers, const char *name, int width, 
 /* Read a file that is not an EXR: a pack by libretex, any other by OpenImageIO. */
 static int open_other(RetexLayers *layers, const char *path, const RetexReadParams *params, RetexError *err)
 {
-    unsigned char begin[4] = {0};
-    int64_t got = retex_input_read(layers->input, begin, sizeof begin, 0);
+    const RetexSetFormat *format = retex_set_format_of(layers->input);
     int code = retex_input_check(layers->input, RETEX_OK, err);
     if (code)
         return code;
-    if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
+    if (format == &retex_set_format_exr)
         return retex_image_read(&layers->picture, path, params, layers->nthreads, err);
-    code = retex_pack_open(&layers->set, &layers->input, err);
+    code = format->open(&layers->input, &layers->set, NULL, 1, layers->nthreads, err);
     if (!code)
         code = check_pixels(layers, path, layers->set->width, layers->set->height, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);

@@ -1,23 +1,13 @@
 /* Opens, reads and checks sets, each an EXR file or a pack, and samples. */
 #include <sys/stat.h>
 
-#include <retex/pack.h>
 #include <retex/samples.h>
 #include <retex/set_file.h>
 
+#include "files/set_format.h"
 #include "io/input.h"
-#include "pack/strips.h"
-#include "set/read.h"
 #include "set/samples.h"
 #include "set/set.h"
-
-static int is_pack(const RetexInput *input)
-{
-    unsigned char begin[64];
-    const int64_t got = retex_input_read(input, begin, sizeof begin, 0);
-
-    return got > 0 && retex_pack_probe(begin, (size_t)got);
-}
 
 /* Read the set, the samples, or both: those whose pointer is not NULL. open: 1 = parts of the set are read later. */
 static int read_file(const char *path, const RetexAccess *access, RetexSet **set, RetexSamples **samples, int open,
@@ -33,12 +23,8 @@ static int read_file(const char *path, const RetexAccess *access, RetexSet **set
         return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
     int status = retex_input_open_allowed(&input, path, access, err);
     const uint64_t bytes = status ? 0 : retex_input_size(input);
-    if (!status && !is_pack(input))
-        status = retex_set_read_exr(&input, set, samples, open, nthreads, err);
-    else if (!status && !set)
-        status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(input));
-    else if (!status)
-        status = retex_pack_open(set, &input, err);
+    if (!status)
+        status = retex_set_format_of(input)->open(&input, set, samples, open, nthreads, err);
     if (!status && !open && set && *set && (*set)->source)
         status = retex_set_load(*set, nthreads, err);
     if (set && *set)
@@ -96,17 +82,10 @@ int retex_set_open_size(const char *path, int width, int height, RetexSet **set,
 int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
-    RetexSet *set = NULL;
     int status = retex_input_open(&input, path, err);
 
-    if (!status && !is_pack(input)) {
-        status = retex_set_check_exr(input, nthreads, err);
-    } else if (!status) {
-        status = retex_pack_open(&set, &input, err);
-        if (!status)
-            status = retex_pack_verify(set, nthreads, err);
-    }
-    retex_set_close(&set);
+    if (!status)
+        status = retex_set_format_of(input)->check(&input, nthreads, err);
     retex_input_close(&input);
     return status;
 }

@@ -10,7 +10,7 @@
 
 #include "retexture/combine_rows.h"
 #include "set/manifest.h"
-#include "pack/strips.h"
+#include "pack/open.h"
 #include "picture/srgb_codes.h"
 #include "set/noise.h"
 #include "set/references.h"

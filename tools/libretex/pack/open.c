@@ -11,6 +11,8 @@
 #include "base/params.h"
 #include "io/checksum.h"
 #include "exr/io.h"
+#include "pack/pack.h"
+#include "pack/strips.h"
 #include "set/manifest.h"
 #include "base/value_check.h"
 

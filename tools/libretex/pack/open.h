@@ -1,26 +1,24 @@
-/* An open pack, inside: its entries and where its slices are. Private to what opens and decodes packs. */
+/* Opens packs, and says what is in them. Private to libretex. */
 #ifndef RETEX_PACK_OPEN_H
 #define RETEX_PACK_OPEN_H
 
-#include "pack/strips.h"
-#include "pack/format.h"
-#include "pack/zip.h"
-#include "set/source.h"
+#include <retex/set.h>
 
-struct RetexPack {
-    RetexSetSource methods; /* first */
-    RetexInput *input;
-    RetexZipList entries;
-    RetexPackPart *parts;
-    const RetexSet *set; /* that owns it */
-    int nparts;
-    RetexPackScales levels;
-    const RetexZipEntry *level_entries[RETEX_PACK_LEVELS_MAX];
-    RetexInput *whole; /* of a smaller set: the pack that it is in; else NULL */
-    int has_promise;
-    RetexPackPromise promise;
-};
+#include "io/input.h"
 
-const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch);
+typedef struct RetexPack RetexPack;
+
+/* Open a pack. *set is created; its parts have sizes but no pixels, and the pack is its source. *input belongs to the
+ * set from then on, and is NULL. */
+int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err);
+RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
+void retex_pack_close(RetexPack **pack);       /* NULL and pointers to NULL are fine */
+
+/* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
+uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);
+const char *retex_pack_part_codec(const RetexPack *pack, int part);
+
+/* Compare all checksums, those of smaller sets too; the set was opened from it. */
+int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack/strips.h"
+#include "pack/open.h"
 
 int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads, RetexError *err)
 {

@@ -3,7 +3,8 @@
 #ifndef RETEX_PACK_SCRATCH_H
 #define RETEX_PACK_SCRATCH_H
 
-#include "pack/open.h"
+#include "base/row_span.h"
+#include "pack/pack.h"
 
 /* A strip of planes. Their numbers are kept, and one row of samples, which is likelier to be in the processor's cache
  * when it is asked for than a strip of them. Where a part says what matters of others, by its third channel, what that
@@ -31,7 +32,7 @@ typedef struct RetexPackCachedStrip {
     int is_black;        /* by its mask */
 } RetexPackCachedStrip;
 
-struct RetexPackScratch {
+typedef struct RetexPackScratch {
     const RetexPack *pack;
     unsigned char *slice; /* as read */
     size_t slice_capacity;
@@ -39,7 +40,7 @@ struct RetexPackScratch {
     size_t pixels; /* of a strip, that there is room for in these two */
     int nparts;
     RetexPackCachedStrip *cached;
-};
+} RetexPackScratch;
 
 /* Room for the residuals and shifts of a strip of this part. */
 int retex_pack_scratch_reserve(RetexPackScratch *s, const RetexPackPart *p, RetexError *err);

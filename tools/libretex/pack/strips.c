@@ -1,6 +1,7 @@
 /* Decoding packs strip by strip. Every slice must have its checksum, and no memory is taken that its bytes could not
  * fill. */
 #include "pack/scratch.h"
+#include "pack/strips.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -16,7 +16,7 @@
 #include "compact/build.h"
 #include "compact/compact.h"
 #include "io/output.h"
-#include "pack/strips.h"
+#include "pack/open.h"
 #include "pack/encode.h"
 #include "pack/loss.h"
 #include "pack/zip.h"

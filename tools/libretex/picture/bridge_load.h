@@ -9,6 +9,8 @@
 #include <retex/image.h>
 #include <retex/image_file.h>
 
+#include "levels.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,9 +18,6 @@ extern "C" {
 /* 1 if a colour space, by its name or NULL, is the one in which the library computes: then an EXR needs no
  * OpenColorIO. */
 int retex_names_linear(const char *colorspace);
-
-/* What is damaged in a picture file, for messages. */
-typedef char RetexDamage[128];
 
 /* A file to read. */
 typedef struct RetexBridgeFile {
@@ -38,13 +37,6 @@ typedef struct RetexBridgeFile {
 /* Read any file that OpenImageIO reads as R,G,B,A, scene-linear Rec.709, unassociated alpha: the general case of
  * retex_image_read. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
-
-/* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The
- * pixels are freed with free(). */
-typedef struct RetexNarrowImage {
-    int width, height;
-    uint16_t *pixels;
-} RetexNarrowImage;
 
 /* Read the same picture as integers, for files of 8- and 16-bit integers whose channels are decoded one by one. For
  * other files dst->pixels stays NULL. */

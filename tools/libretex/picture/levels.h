@@ -3,7 +3,19 @@
 #ifndef RETEX_PICTURE_LEVELS_H
 #define RETEX_PICTURE_LEVELS_H
 
-#include "picture/bridge_load.h"
+#include <stdint.h>
+
+#include <retex/image.h>
+
+/* What is damaged in a picture file, for messages. */
+typedef char RetexDamage[128];
+
+/* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The
+ * pixels are freed with free(). */
+typedef struct RetexNarrowImage {
+    int width, height;
+    uint16_t *pixels;
+} RetexNarrowImage;
 
 /* Where a decoder puts its rows: into one of the two images. */
 typedef struct RetexLevels {
