@@ -1,5 +1,4 @@
 /* The command line of retex-render: its options, and which of them cannot be combined. */
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,96 +10,6 @@
 #include "retex-render.h"
 #include "camera/view.h"
 #include "render/mattes.h"
-
-static const CliOption options[] = {
-    {"target", 't', "NAME[=IDENT,…]",
-     "make everything #declared as IDENT (or NAME), or with the texture that pixel @X:Y shows, the target NAME; "
-     "repeatable",
-     0},
-    {"list-targets", 0, "=FILE",
-     "print the identifiers that can be targets, with their share of the picture, and stop; with -v also objects, "
-     "materials, colours and images; FILE gets a picture with the numbers of objects",
-     0},
-    {"lamp", 'l', "NAME[=IDENT,…]",
-     "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light source, what "
-     "emits, as of --target, light_source#N or sky; repeatable",
-     0},
-    {"lamps", 0, "each", "the same of each light that has a name, each light source, and the sky", 0},
-    {"list-lamps", 0, NULL,
-     "print the lamps that there are, or those of -l, with their share of the picture's light, and stop", 0},
-    {"light-share", 0, "X", "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0},
-    {"finish", 0, "TARGET=NAME,…",
-     "keep the light of a target's finishes apart, to choose from later: those that the scene declares, matt, satin, "
-     "polished, metal, original; up to 4, the first one is in the picture; repeatable",
-     0},
-    {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0},
-    {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0},
-    {"light", 0, "NAME=VALUE",
-     "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
-     "retex-combine; repeatable",
-     0},
-    {"solo", 0, "NAME", "turn off all lamps but NAME and those of --light", 0},
-    {"replace", 0, "NAME=IMAGE",
-     "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
-    {"preset", 0, "FILE", "the same with a preset's textures, as of retex-combine; options go first", 0},
-    {"variants", 0, "FILE.csv",
-     "render one --replace picture per row of a table, as retex-combine --batch; up to 16 share paths", 0},
-    {"control", 0, "SET", "with --replace: reduce noise by control variates from SET, a set of the same view", 0},
-    {"control-mode", 0, "unbiased|halves|biased", "kind of control variates; default unbiased", 0},
-    {"control-data", 0, "biased|unbiased", "add variances, as the paper's control variates need them", 0},
-    {"plain", 0, NULL, "render the picture only, no set", 0},
-    {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0},
-    {"clusters", 0, "K|S+B|S+B+X",
-     "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more sharp ones in "
-     "mirrors and through glass; default 4+2+8",
-     0},
-    {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
-    {"strict-paper", 0, NULL, "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0},
-    {"denoise", 0, "=preview|final", "denoise the result, as retex-denoise does", 0},
-    {"no-denoise-data", 0, NULL, "omit the parts of the set that retex-denoise needs", 0},
-    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
-    {"caustics", 0, NULL, "light sources throw caustics, as small lamps, through all glass and by all mirrors", 0},
-    {"no-caustics", 0, NULL, "light sources throw no caustics; default: as the scene asks by `photons`", 0},
-    {"caustics-guide", 0, NULL, "guide paths by photons, for caustics of small lamps", 0},
-    {"spp", 0, "N", "samples per pixel; default 64", 0},
-    {"noise", 0, "X", "adaptive sampling: as many samples, up to --spp, as keep the noise of each tile at most X", 0},
-    {"size", 0, "WxH", "size of the picture; default 640 wide with the scene's aspect ratio", 0},
-    {"unit", 0, "LENGTH", "what a scene unit is, for lengths of textures as in width=60cm: cm, 2.5cm, ft; default 1 m",
-     0},
-    {"seed", 0, "N", "seed of the random numbers; default 0", 0},
-    {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0},
-    {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0},
-    {"camera", 0, "NAME|X,Y,Z:X,Y,Z[:ANGLE]",
-     "another camera: one that the scene declares, or where it is, what it looks at, and the horizontal angle of view",
-     0},
-    {"filter", 0, "box|gaussian", "pixel filter; default box", 0},
-    {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
-    {"aov-dir", 0, "DIR", "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0},
-    {"mattes", 0, "FILE.exr", "also write a file for compositors: the picture, masks of targets, Cryptomatte", 0},
-    {"matte-ranks", 0, "N", "names that Cryptomatte has in a pixel, 1 to 32; default 6", 0},
-    {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0},
-    {"declare", 'D', "NAME=VALUE",
-     "before the scene is read, declare a number or a quoted string, or set clock, frame_number, initial_frame or "
-     "final_frame; repeatable",
-     0},
-    {"ambient", 0, NULL, "treat `ambient` of all finishes as emission", 0},
-    {"no-ambient", 0, NULL, "treat no `ambient` as emission; default: strong `ambient`, in scenes without radiosity",
-     0},
-    {"lenient", 0, NULL, "render scenes with unsupported shapes or cameras, without them", 0},
-    {"strict", 0, NULL, "treat unsupported features of the scene as errors", 0},
-    {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and continue from that file if it exists", 0},
-    {"shard", 0, "I/N", "render only every N-th band of rows, from the I-th, for --merge", 0},
-    {"merge", 0, "FILE", "join the rows of all shards of this render; repeatable", 0},
-    {"stats", 0, "FILE.json", "write times, numbers of rays and paths, and memory use; - is standard output", 0},
-    {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0},
-    {"live", 0, NULL,
-     "keep the scene open and answer requests for pictures of it, lines on standard input: see the manual", 0},
-    {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS", 0},
-    FRAMES_OPTION(Arguments, frames),
-    CLI_PROGRESS_OPTION,
-    BATCH_OPTIONS(Arguments, batch),
-    {0},
-};
 
 /* Parse `count` whole numbers between separators. Any further text is an error. */
 static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
@@ -131,152 +40,222 @@ static int choose(const Cli *cli, const CliOption *o, int count, const char *con
             retex_meant(retex_nearest_of(cli->value, names, count), meant));
 }
 
-/* ---- options whose values are checked at once ---- */
+/* ---- options whose values are checked at once, and those that say two things ---- */
 
-static void take_lamps(Arguments *a, const CliOption *o)
+static void take_list_targets(Cli *cli, const CliOption *o, void *arguments)
 {
-    choose(a->cli, o, 1, (const char *const[]){"each"});
+    Arguments *a = arguments;
+    (void)o;
+    a->list = 1, a->sheet = cli->value;
 }
 
-static void take_replace(Arguments *a, const CliOption *o)
+static void take_denoise(Cli *cli, const CliOption *o, void *arguments)
 {
+    Arguments *a = arguments;
+    (void)o;
+    a->denoise = 1, a->denoise_quality = cli->value;
+}
+
+static void take_lamps(Cli *cli, const CliOption *o, void *each)
+{
+    choose(cli, o, 1, (const char *const[]){"each"});
+    *(int *)each = 1;
+}
+
+static void take_replace(Cli *cli, const CliOption *o, void *arguments)
+{
+    Arguments *a = arguments;
     RetexError err;
     if (a->nreplacements == RETEX_MAX_TARGETS)
-        cli_die(a->cli, "more than %d of --%s", RETEX_MAX_TARGETS, o->name);
-    if (texture_args_parse(a->cli, a->replacements, &a->nreplacements, &err))
-        cli_die(a->cli, "--%s: %s", o->name, err.message);
+        cli_die(cli, "more than %d of --%s", RETEX_MAX_TARGETS, o->name);
+    if (texture_args_parse(cli, a->replacements, &a->nreplacements, &err))
+        cli_die(cli, "--%s: %s", o->name, err.message);
 }
 
-static void take_control_mode(Arguments *a, const CliOption *o)
+static void take_control_mode(Cli *cli, const CliOption *o, void *mode)
 {
-    a->control_mode = (ControlMode)choose(a->cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
+    *(ControlMode *)mode = (ControlMode)choose(cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
 }
 
-static void take_control_data(Arguments *a, const CliOption *o)
+static void take_control_data(Cli *cli, const CliOption *o, void *data)
 {
-    a->render.control_data = 1 + choose(a->cli, o, 2, (const char *const[]){"biased", "unbiased"});
+    *(int *)data = 1 + choose(cli, o, 2, (const char *const[]){"biased", "unbiased"});
 }
 
-static void take_matte_ranks(Arguments *a, const CliOption *o)
+static void take_matte_ranks(Cli *cli, const CliOption *o, void *ranks)
 {
-    numbers(a->cli, o, 0, 1, &a->matte_ranks);
-    if (a->matte_ranks < 1 || a->matte_ranks > MATTE_RANKS_MAX)
-        cli_die(a->cli, "--matte-ranks: expected 1 to %d, not `%s`", MATTE_RANKS_MAX, a->cli->value);
+    numbers(cli, o, 0, 1, ranks);
+    if (*(int *)ranks < 1 || *(int *)ranks > MATTE_RANKS_MAX)
+        cli_die(cli, "--matte-ranks: expected 1 to %d, not `%s`", MATTE_RANKS_MAX, cli->value);
 }
 
-static void take_declare(Arguments *a, const CliOption *o)
-{
-    RetexError err;
-    if (job_check_declare(a->cli->value, &err))
-        cli_die(a->cli, "--%s: %s", o->name, err.message);
-}
-
-static void take_camera(Arguments *a, const CliOption *o)
+static void take_camera(Cli *cli, const CliOption *o, void *camera)
 {
     RetexError err;
     CameraView view;
-    if (camera_view_read(&view, a->cli->value, &err) == RETEX_EINVAL)
-        cli_die(a->cli, "--%s: %s", o->name, err.message);
+    if (camera_view_read(&view, cli->value, &err) == RETEX_EINVAL)
+        cli_die(cli, "--%s: %s", o->name, err.message);
+    *(const char **)camera = cli->value;
 }
 
-static void take_shard(Arguments *a, const CliOption *o)
+static void take_shard(Cli *cli, const CliOption *o, void *render)
 {
-    RenderParams *r = &a->render;
+    RenderParams *r = render;
     int part[2];
-    numbers(a->cli, o, '/', 2, part);
+    numbers(cli, o, '/', 2, part);
     r->shard = part[0], r->nshards = part[1];
     if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
-        cli_die(a->cli, "--shard: expected I/N, I from 1 to N, not `%s`", a->cli->value);
+        cli_die(cli, "--shard: expected I/N, I from 1 to N, not `%s`", cli->value);
+    r->resume = 1;
 }
 
-static void take_trace(Arguments *a, const CliOption *o)
+static void take_trace(Cli *cli, const CliOption *o, void *arguments)
 {
-    numbers(a->cli, o, ',', 3, a->trace);
+    Arguments *a = arguments;
+    numbers(cli, o, ',', 3, a->trace);
+    a->tracing = 1;
 }
 
-static void take_steps(Arguments *a, const CliOption *o)
+static void take_steps(Cli *cli, const CliOption *o, void *arguments)
 {
-    cli_limit(a->cli, o);
+    (void)arguments;
+    cli_limit(cli, o);
 }
 
 /* Of the render itself: as names that OpenImageIO opens have them. */
-static void take_render_option(Arguments *a, const CliOption *o)
+static void take_render_option(Cli *cli, const CliOption *o, void *arguments)
 {
+    Arguments *a = arguments;
     RetexError err;
-    if (job_set_option(&a->render, &a->sdl, o->name, o->argument ? a->cli->value : NULL, &err))
-        cli_die(a->cli, "--%s", err.message);
+    if (job_set_option(&a->render, &a->sdl, o->name, o->argument ? cli->value : NULL, &err))
+        cli_die(cli, "--%s", err.message);
 }
 
-/* What an option does: `take` looks at its value, a flag becomes 1, the value is kept as text, or added to a list.
- * Fields are offsets in Arguments; 0: there is none. */
-typedef struct Effect {
-    const char *name;
-    void (*take)(Arguments *a, const CliOption *o);
-    size_t flag, text, list, count;
-} Effect;
-
-#define AT(field) offsetof(Arguments, field)
-#define LIST(field) .list = AT(field), .count = AT(n##field)
-
-/* Those of this tool; all others are of the render. */
-static const Effect effects[] = {
-    {"target", .flag = AT(named), LIST(targets)},
-    {"list-targets", .flag = AT(list), .text = AT(sheet)},
-    {"lamp", LIST(lamps)},
-    {"lamps", .take = take_lamps, .flag = AT(each_lamp)},
-    {"list-lamps", .flag = AT(list_lamps)},
-    {"finish", LIST(finishes)},
-    {"show", LIST(shown)},
-    {"list-finishes", .flag = AT(list_finishes)},
-    {"light", LIST(lights)},
-    {"solo", .text = AT(solo)},
-    {"replace", .take = take_replace},
-    {"preset", .text = AT(preset)},
-    {"variants", .text = AT(variants)},
-    {"control", .text = AT(control)},
-    {"control-mode", .take = take_control_mode},
-    {"control-data", .take = take_control_data},
-    {"denoise", .flag = AT(denoise), .text = AT(denoise_quality)},
-    {"no-denoise-data", .flag = AT(no_denoise_data)},
-    {"full-precision", .flag = AT(full_precision)},
-    {"aov-dir", .text = AT(aov_dir)},
-    {"mattes", .text = AT(mattes)},
-    {"matte-ranks", .take = take_matte_ranks},
-    {"include", LIST(includes)},
-    {"declare", .take = take_declare, LIST(declares)},
-    {"camera", .take = take_camera, .text = AT(sdl.camera)},
-    {"live", .flag = AT(live)},
-    {"resume", .flag = AT(render.resume)},
-    {"shard", .take = take_shard, .flag = AT(render.resume)},
-    {"merge", LIST(merged)},
-    {"stats", .text = AT(stats)},
-    {"trace-pixel", .take = take_trace, .flag = AT(tracing)},
-    {"max-steps", .take = take_steps},
-    {"seed", .take = take_render_option, .flag = AT(seeded)},
-};
-
-static void parse_option(Arguments *a, const CliOption *o)
+static void take_seed(Cli *cli, const CliOption *o, void *arguments)
 {
-    static const Effect of_render = {.take = take_render_option};
-    const Effect *effect = &of_render;
-    char *fields = (char *)a;
-    if (cli_take(a->cli, o, a))
-        return;
-    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++)
-        effect = strcmp(o->name, effects[k].name) ? effect : &effects[k];
-    if (effect->take)
-        effect->take(a, o);
-    if (effect->flag)
-        *(int *)(fields + effect->flag) = 1;
-    if (effect->text)
-        *(const char **)(fields + effect->text) = a->cli->value;
-    if (effect->list) {
-        int *count = (int *)(fields + effect->count);
-        if (*count == LIST_MAX)
-            cli_die(a->cli, "more than %d of --%s", LIST_MAX, o->name);
-        ((const char **)(fields + effect->list))[(*count)++] = a->cli->value;
-    }
+    take_render_option(cli, o, arguments);
+    ((Arguments *)arguments)->seeded = 1;
 }
+
+static const CliOption options[] = {
+    {"target", 't', "NAME[=IDENT,…]",
+     "make everything #declared as IDENT (or NAME), or with the texture that pixel @X:Y shows, the target NAME; "
+     "repeatable",
+     0, CLI_LIST(Arguments, targets)},
+    {"list-targets", 0, "=FILE",
+     "print the identifiers that can be targets, with their share of the picture, and stop; with -v also objects, "
+     "materials, colours and images; FILE gets a picture with the numbers of objects",
+     0, CLI_CALL_OF_ALL(take_list_targets)},
+    {"lamp", 'l', "NAME[=IDENT,…]",
+     "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light source, what "
+     "emits, as of --target, light_source#N or sky; repeatable",
+     0, CLI_LIST(Arguments, lamps)},
+    {"lamps", 0, "each", "the same of each light that has a name, each light source, and the sky", 0,
+     CLI_CALL(Arguments, each_lamp, take_lamps)},
+    {"list-lamps", 0, NULL,
+     "print the lamps that there are, or those of -l, with their share of the picture's light, and stop", 0,
+     CLI_INTO(Arguments, list_lamps)},
+    {"light-share", 0, "X", "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"finish", 0, "TARGET=NAME,…",
+     "keep the light of a target's finishes apart, to choose from later: those that the scene declares, matt, satin, "
+     "polished, metal, original; up to 4, the first one is in the picture; repeatable",
+     0, CLI_LIST(Arguments, finishes)},
+    {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0, CLI_LIST(Arguments, shown)},
+    {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0,
+     CLI_INTO(Arguments, list_finishes)},
+    {"light", 0, "NAME=VALUE",
+     "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
+     "retex-combine; repeatable",
+     0, CLI_LIST(Arguments, lights)},
+    {"solo", 0, "NAME", "turn off all lamps but NAME and those of --light", 0, CLI_INTO(Arguments, solo)},
+    {"replace", 0, "NAME=IMAGE",
+     "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1,
+     CLI_CALL_OF_ALL(take_replace)},
+    {"preset", 0, "FILE", "the same with a preset's textures, as of retex-combine; options go first", 0,
+     CLI_INTO(Arguments, preset)},
+    {"variants", 0, "FILE.csv",
+     "render one --replace picture per row of a table, as retex-combine --batch; up to 16 share paths", 0,
+     CLI_INTO(Arguments, variants)},
+    {"control", 0, "SET", "with --replace: reduce noise by control variates from SET, a set of the same view", 0,
+     CLI_INTO(Arguments, control)},
+    {"control-mode", 0, "unbiased|halves|biased", "kind of control variates; default unbiased", 0,
+     CLI_CALL(Arguments, control_mode, take_control_mode)},
+    {"control-data", 0, "biased|unbiased", "add variances, as the paper's control variates need them", 0,
+     CLI_CALL(Arguments, render.control_data, take_control_data)},
+    {"plain", 0, NULL, "render the picture only, no set", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"clusters", 0, "K|S+B|S+B+X",
+     "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more sharp ones in "
+     "mirrors and through glass; default 4+2+8",
+     0, CLI_CALL_OF_ALL(take_render_option)},
+    {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"strict-paper", 0, NULL, "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"denoise", 0, "=preview|final", "denoise the result, as retex-denoise does", 0, CLI_CALL_OF_ALL(take_denoise)},
+    {"no-denoise-data", 0, NULL, "omit the parts of the set that retex-denoise needs", 0,
+     CLI_INTO(Arguments, no_denoise_data)},
+    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0,
+     CLI_INTO(Arguments, full_precision)},
+    {"caustics", 0, NULL, "light sources throw caustics, as small lamps, through all glass and by all mirrors", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"no-caustics", 0, NULL, "light sources throw no caustics; default: as the scene asks by `photons`", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"caustics-guide", 0, NULL, "guide paths by photons, for caustics of small lamps", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"spp", 0, "N", "samples per pixel; default 64", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"noise", 0, "X", "adaptive sampling: as many samples, up to --spp, as keep the noise of each tile at most X", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"size", 0, "WxH", "size of the picture; default 640 wide with the scene's aspect ratio", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"unit", 0, "LENGTH", "what a scene unit is, for lengths of textures as in width=60cm: cm, 2.5cm, ft; default 1 m",
+     0, CLI_CALL_OF_ALL(take_render_option)},
+    {"seed", 0, "N", "seed of the random numbers; default 0", 0, CLI_CALL_OF_ALL(take_seed)},
+    {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"camera", 0, "NAME|X,Y,Z:X,Y,Z[:ANGLE]",
+     "another camera: one that the scene declares, or where it is, what it looks at, and the horizontal angle of view",
+     0, CLI_CALL(Arguments, sdl.camera, take_camera)},
+    {"filter", 0, "box|gaussian", "pixel filter; default box", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"aov-dir", 0, "DIR", "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0,
+     CLI_INTO(Arguments, aov_dir)},
+    {"mattes", 0, "FILE.exr", "also write a file for compositors: the picture, masks of targets, Cryptomatte", 0,
+     CLI_INTO(Arguments, mattes)},
+    {"matte-ranks", 0, "N", "names that Cryptomatte has in a pixel, 1 to 32; default 6", 0,
+     CLI_CALL(Arguments, matte_ranks, take_matte_ranks)},
+    {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0,
+     CLI_LIST(Arguments, includes)},
+    {"declare", 'D', "NAME=VALUE",
+     "before the scene is read, declare a number or a quoted string, or set clock, frame_number, initial_frame or "
+     "final_frame; repeatable",
+     0, CLI_LIST(Arguments, declares)},
+    {"ambient", 0, NULL, "treat `ambient` of all finishes as emission", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"no-ambient", 0, NULL, "treat no `ambient` as emission; default: strong `ambient`, in scenes without radiosity", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"lenient", 0, NULL, "render scenes with unsupported shapes or cameras, without them", 0,
+     CLI_CALL_OF_ALL(take_render_option)},
+    {"strict", 0, NULL, "treat unsupported features of the scene as errors", 0, CLI_CALL_OF_ALL(take_render_option)},
+    {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and continue from that file if it exists", 0,
+     CLI_INTO(Arguments, render.resume)},
+    {"shard", 0, "I/N", "render only every N-th band of rows, from the I-th, for --merge", 0,
+     CLI_CALL(Arguments, render, take_shard)},
+    {"merge", 0, "FILE", "join the rows of all shards of this render; repeatable", 0, CLI_LIST(Arguments, merged)},
+    {"stats", 0, "FILE.json", "write times, numbers of rays and paths, and memory use; - is standard output", 0,
+     CLI_INTO(Arguments, stats)},
+    {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0,
+     CLI_CALL_OF_ALL(take_trace)},
+    {"live", 0, NULL,
+     "keep the scene open and answer requests for pictures of it, lines on standard input: see the manual", 0,
+     CLI_INTO(Arguments, live)},
+    {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS", 0,
+     CLI_CALL_OF_ALL(take_steps)},
+    FRAMES_OPTION(Arguments, frames),
+    CLI_PROGRESS_OPTION,
+    BATCH_OPTIONS(Arguments, batch),
+    {0},
+};
 
 /* Whether a warning was printed for an earlier frame; the frames of an animation have the same ones. Only so many are
  * kept. */
@@ -291,6 +270,14 @@ static int was_told(const char *text)
     if (count < sizeof told / sizeof *told)
         told[count++] = digest;
     return 0;
+}
+
+static void check_declares(const Arguments *a)
+{
+    RetexError err;
+    for (int k = 0; k < a->ndeclares; k++)
+        if (job_check_declare(a->declares[k], &err))
+            cli_die(a->cli, "--declare: %s", err.message);
 }
 
 static void scene_message(void *context, int level, const char *text)
@@ -353,23 +340,23 @@ static void check_lamps(const Arguments *a)
 static void check_live(Arguments *a)
 {
     const RenderParams *r = &a->render;
-    const char *other = a->list                 ? "list-targets"
-                        : a->list_lamps         ? "list-lamps"
-                        : a->list_finishes      ? "list-finishes"
-                        : a->tracing            ? "trace-pixel"
-                        : a->variants           ? "variants"
-                        : a->control            ? "control"
-                        : r->control_data       ? "control-data"
-                        : a->denoise            ? "denoise"
-                        : a->aov_dir            ? "aov-dir"
-                        : r->aovs               ? "aov"
-                        : a->mattes             ? "mattes"
-                        : r->noise > 0          ? "noise"
-                        : r->crop[2]            ? "crop"
-                        : r->nshards            ? "shard"
-                        : r->resume             ? "resume"
-                        : a->nmerged            ? "merge"
-                                                : NULL;
+    const char *other = a->list            ? "list-targets"
+                        : a->list_lamps    ? "list-lamps"
+                        : a->list_finishes ? "list-finishes"
+                        : a->tracing       ? "trace-pixel"
+                        : a->variants      ? "variants"
+                        : a->control       ? "control"
+                        : r->control_data  ? "control-data"
+                        : a->denoise       ? "denoise"
+                        : a->aov_dir       ? "aov-dir"
+                        : r->aovs          ? "aov"
+                        : a->mattes        ? "mattes"
+                        : r->noise > 0     ? "noise"
+                        : r->crop[2]       ? "crop"
+                        : r->nshards       ? "shard"
+                        : r->resume        ? "resume"
+                        : a->nmerged       ? "merge"
+                                           : NULL;
     if (!a->live)
         return;
     if (other)
@@ -465,7 +452,7 @@ void parse_arguments(Arguments *a)
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
     while ((o = cli_next(cli))) {
         if (o != &cli_positional)
-            parse_option(a, o);
+            cli_take(cli, o, a);
         else if (take_ini_word(a, cli->value))
             continue;
         else if (a->scene)
@@ -473,6 +460,8 @@ void parse_arguments(Arguments *a)
         else
             a->scene = cli->value;
     }
+    a->named = a->ntargets > 0;
+    check_declares(a);
     take_ini_options(a);
     add_preset(a);
     if (!a->scene)

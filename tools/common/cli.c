@@ -329,6 +329,13 @@ uint64_t cli_size(const Cli *cli, const CliOption *option)
     return bytes;
 }
 
+static void add_to_list(const Cli *cli, const CliOption *option, const char **list, int *count)
+{
+    if (*count == option->into.most)
+        cli_die(cli, "more than %d of --%s", option->into.most, option->name);
+    list[(*count)++] = cli->value;
+}
+
 int cli_take(Cli *cli, const CliOption *option, void *job)
 {
     const CliInto *into = &option->into;
@@ -337,6 +344,8 @@ int cli_take(Cli *cli, const CliOption *option, void *job)
         return 0;
     if (into->type == CLI_TAKEN)
         into->take(cli, option, member);
+    else if (into->type == CLI_LISTED)
+        add_to_list(cli, option, member, (int *)((char *)job + into->count));
     else if (into->type == CLI_TEXT)
         *(const char **)member = cli->value;
     else if (into->type == CLI_INT)

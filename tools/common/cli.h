@@ -16,21 +16,32 @@ typedef struct CliOption CliOption;
 
 /* Where the value of an option goes: into a member of what the command line asks for, a structure of the tool. */
 typedef struct CliInto {
-    enum { CLI_ELSEWHERE, CLI_TEXT, CLI_INT, CLI_LONG, CLI_FLOAT, CLI_DOUBLE, CLI_SIZE, CLI_TAKEN } type;
+    enum { CLI_ELSEWHERE, CLI_TEXT, CLI_INT, CLI_LONG, CLI_FLOAT, CLI_DOUBLE, CLI_SIZE, CLI_LISTED, CLI_TAKEN } type;
     size_t at;     /* the member's offset */
     int is_number; /* from low to high; else an int becomes 1 */
     double low, high;
+    size_t count;                                                  /* of CLI_LISTED: offset of the length, an int */
+    int most;                                                      /* and the greatest one */
     void (*take)(Cli *cli, const CliOption *option, void *member); /* of CLI_TAKEN: parses cli->value */
 } CliInto;
 
 /* The last field of an option's row: a text, a size in bytes, or a flag, by the type of the member; a number within
- * bounds; or what a function makes of cli->value. */
-#define CLI_INTO(type, member) {CLI_TYPE_OF(type, member), offsetof(type, member), 0, 0, 0, NULL}
-#define CLI_NUMBER(type, member, low, high) {CLI_TYPE_OF(type, member), offsetof(type, member), 1, low, high, NULL}
-#define CLI_CALL(type, member, take) {CLI_TAKEN, offsetof(type, member), 0, 0, 0, take}
-#define CLI_CALL_OF_ALL(take) {CLI_TAKEN, 0, 0, 0, 0, take} /* with the whole structure */
-#define CLI_TYPE_OF(type, member)                                                                                      \
-    _Generic(((type *)0)->member, const char *: CLI_TEXT, int: CLI_INT, long: CLI_LONG, float: CLI_FLOAT,              \
+ * bounds; a list of texts, `x` with its length `nx`; or what a function makes of cli->value. */
+#define CLI_INTO(of, member) {.type = CLI_TYPE_OF(of, member), .at = offsetof(of, member)}
+#define CLI_NUMBER(of, member, least, greatest)                                                                        \
+    {                                                                                                                  \
+        .type = CLI_TYPE_OF(of, member), .at = offsetof(of, member), .is_number = 1, .low = least,                     \
+        .high = greatest                                                                                               \
+    }
+#define CLI_LIST(of, member)                                                                                           \
+    {                                                                                                                  \
+        .type = CLI_LISTED, .at = offsetof(of, member), .count = offsetof(of, n##member),                              \
+        .most = sizeof((of *)0)->member / sizeof *((of *)0)->member                                                    \
+    }
+#define CLI_CALL(of, member, function) {.type = CLI_TAKEN, .at = offsetof(of, member), .take = function}
+#define CLI_CALL_OF_ALL(function) {.type = CLI_TAKEN, .take = function} /* with the whole structure */
+#define CLI_TYPE_OF(of, member)                                                                                        \
+    _Generic(((of *)0)->member, const char *: CLI_TEXT, int: CLI_INT, long: CLI_LONG, float: CLI_FLOAT,                \
              double: CLI_DOUBLE, uint64_t: CLI_SIZE)
 
 /* One option of a tool. A table of them ends with {0}. */
