@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -147,37 +148,59 @@ static int set_clusters(const Option *o)
     return RETEX_OK;
 }
 
-/* Options with a value. */
+static int set_filter(const Option *o)
+{
+    return set_choice(o, "box", "gaussian", &o->render->gaussian);
+}
+
+static int set_layout(const Option *o)
+{
+    return set_choice(o, "footprints", "paper", &o->render->paper);
+}
+
+static int set_aovs(const Option *o)
+{
+    return retex_aov_parse(&o->render->aovs, o->value, o->name, o->err);
+}
+
+/* An option with a value: a number from low to high, which is a member of RenderParams, or what a function reads. */
+typedef struct Row {
+    const char *name;
+    enum { WHOLE, REAL, READ } kind;
+    size_t at;
+    double low, high;
+    int (*read)(const Option *o);
+} Row;
+
+#define AT(member) offsetof(RenderParams, member)
+
+static const Row rows[] = {
+    {"spp", WHOLE, AT(spp), 1, 1 << 20, NULL},
+    {"max-depth", WHOLE, AT(max_depth), 1, 256, NULL},
+    {"orders", WHOLE, AT(orders), 1, RETEX_MAX_ORDERS, NULL},
+    {"noise", REAL, AT(noise), 1e-6, 10, NULL},
+    {"light-share", REAL, AT(light_share), 0, 1, NULL},
+    {"seed", READ, 0, 0, 0, set_seed},
+    {"size", READ, 0, 0, 0, set_size},
+    {"unit", READ, 0, 0, 0, set_unit},
+    {"crop", READ, 0, 0, 0, set_crop},
+    {"filter", READ, 0, 0, 0, set_filter},
+    {"layout", READ, 0, 0, 0, set_layout},
+    {"clusters", READ, 0, 0, 0, set_clusters},
+    {"aov", READ, 0, 0, 0, set_aovs},
+};
+
 static int set_value(const Option *o)
 {
-    RenderParams *r = o->render;
-    if (!strcmp(o->name, "spp"))
-        return set_whole(o, 1, 1 << 20, &r->spp);
-    if (!strcmp(o->name, "max-depth"))
-        return set_whole(o, 1, 256, &r->max_depth);
-    if (!strcmp(o->name, "orders"))
-        return set_whole(o, 1, RETEX_MAX_ORDERS, &r->orders);
-    if (!strcmp(o->name, "seed"))
-        return set_seed(o);
-    if (!strcmp(o->name, "noise"))
-        return set_real(o, 1e-6, 10, &r->noise);
-    if (!strcmp(o->name, "light-share"))
-        return set_real(o, 0, 1, &r->light_share);
-    if (!strcmp(o->name, "size"))
-        return set_size(o);
-    if (!strcmp(o->name, "unit"))
-        return set_unit(o);
-    if (!strcmp(o->name, "crop"))
-        return set_crop(o);
-    if (!strcmp(o->name, "filter"))
-        return set_choice(o, "box", "gaussian", &r->gaussian);
-    if (!strcmp(o->name, "layout"))
-        return set_choice(o, "footprints", "paper", &r->paper);
-    if (!strcmp(o->name, "clusters"))
-        return set_clusters(o);
-    if (!strcmp(o->name, "aov"))
-        return retex_aov_parse(&r->aovs, o->value, o->name, o->err);
-    return retex_fail(o->err, RETEX_ENOTFOUND, "%s is no option of a render", o->name);
+    const Row *row = rows, *end = rows + sizeof rows / sizeof *rows;
+    while (row < end && strcmp(o->name, row->name))
+        row++;
+    if (row == end)
+        return retex_fail(o->err, RETEX_ENOTFOUND, "%s is no option of a render", o->name);
+    void *member = (char *)o->render + row->at;
+    return row->kind == WHOLE  ? set_whole(o, (long)row->low, (long)row->high, member)
+           : row->kind == REAL ? set_real(o, row->low, row->high, member)
+                               : row->read(o);
 }
 
 int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, const char *value, RetexError *err)

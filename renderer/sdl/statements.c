@@ -27,11 +27,6 @@ static void begin(Sdl *sdl)
     scene->noise_generator = NOISE_RANGE_CORRECTED;
 }
 
-static void finish(Sdl *sdl)
-{
-    finalize_scene(sdl);
-}
-
 static void set_default(Sdl *sdl)
 {
     TextureState *textures = textures_of(sdl);
@@ -296,7 +291,7 @@ const SdlBuilder scene_builder = {
     .name = add_name,
     .statement = statement,
     .set_default = set_default,
-    .finish = finish,
+    .finish = finalize_scene,
     .extent = object_extent,
     .trace = object_trace,
     .inside = object_inside,

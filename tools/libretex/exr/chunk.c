@@ -22,7 +22,7 @@ size_t retex_chunk_bytes(const RetexChunkShape *shape)
     return retex_chunk_plane(shape) * strlen(shape->letters);
 }
 
-static int reserve(void **memory, size_t *have, size_t want, size_t unit)
+int retex_chunk_room(void **memory, size_t *have, size_t want, size_t unit)
 {
     if (*have >= want)
         return 1;
@@ -36,8 +36,8 @@ int retex_chunk_reserve(RetexChunkScratch *scratch, const RetexChunkShape *shape
 {
     const size_t line = (size_t)shape->width * strlen(shape->letters);
 
-    return reserve((void **)&scratch->raw, &scratch->raw_bytes, retex_chunk_bytes(shape), 1) &&
-           reserve((void **)&scratch->halves, &scratch->halves_count, line, 2) &&
+    return retex_chunk_room((void **)&scratch->raw, &scratch->raw_bytes, retex_chunk_bytes(shape), 1) &&
+           retex_chunk_room((void **)&scratch->halves, &scratch->halves_count, line, 2) &&
            retex_zip_reserve(&scratch->zip, retex_chunk_bytes(shape));
 }
 

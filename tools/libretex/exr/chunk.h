@@ -54,4 +54,7 @@ size_t retex_chunk_compress(RetexChunkScratch *scratch, const RetexChunkShape *s
 int retex_chunk_decompress(RetexChunkScratch *scratch, const RetexChunkShape *shape, int pxr24,
                            const unsigned char *packed, size_t packed_bytes, unsigned char *raw);
 
+/* Have room for `want` elements of so many bytes; what was there is lost. 0: memory runs out. */
+int retex_chunk_room(void **memory, size_t *have, size_t want, size_t unit);
+
 #endif

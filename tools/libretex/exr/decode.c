@@ -8,6 +8,7 @@
 
 #include "io/checksum.h"
 #include "base/half.h"
+#include "exr/chunk.h"
 #include "exr/planes_kernel.h"
 
 int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
@@ -32,16 +33,6 @@ int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFin
 size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
 {
     return channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4;
-}
-
-static int reserve(void **memory, size_t *have, size_t want, size_t unit)
-{
-    if (*have >= want)
-        return 1;
-    free(*memory);
-    *memory = malloc(want * unit);
-    *have = *memory ? want : 0;
-    return *memory != NULL;
 }
 
 /* Decodes a chunk of another compression by OpenEXRCore. */
@@ -94,12 +85,12 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
     if (chunk->packed_size == 0 || chunk->packed_size > bytes || chunk->unpacked_size != bytes)
         return EXR_ERR_CORRUPT_CHUNK;
     if (plan->compression != EXR_COMPRESSION_NONE && !zipped) {
-        if (!reserve((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
+        if (!retex_chunk_room((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
             return EXR_ERR_OUT_OF_MEMORY;
         *samples = scratch->raw;
         return decode_with_core(exr, part, chunk, scratch->raw, bytes);
     }
-    if (!reserve((void **)&scratch->packed, &scratch->packed_bytes, (size_t)chunk->packed_size, 1))
+    if (!retex_chunk_room((void **)&scratch->packed, &scratch->packed_bytes, (size_t)chunk->packed_size, 1))
         return EXR_ERR_OUT_OF_MEMORY;
     const exr_result_t code = exr_read_chunk(exr->context, part, chunk, scratch->packed);
     if (code)
@@ -109,7 +100,8 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
         return EXR_ERR_SUCCESS;
     if (!zipped)
         return EXR_ERR_CORRUPT_CHUNK;
-    if (!reserve((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_reserve(&scratch->zip, bytes))
+    if (!retex_chunk_room((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) ||
+        !retex_zip_reserve(&scratch->zip, bytes))
         return EXR_ERR_OUT_OF_MEMORY;
     *samples = scratch->raw;
     const size_t packed = (size_t)chunk->packed_size;
@@ -212,7 +204,8 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
     exr_result_t code = retex_exr_chunk_samples(exr, plan, column, row, scratch, &samples, &width, &height);
 
     if (!code &&
-        !reserve((void **)&scratch->rows, &scratch->rows_count, (size_t)width * RETEX_EXR_LETTERS_MAX, sizeof(float)))
+        !retex_chunk_room((void **)&scratch->rows, &scratch->rows_count, (size_t)width * RETEX_EXR_LETTERS_MAX,
+                          sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
     if (!code && !store_samples(plan, image, top, samples, x, y, width, height, scratch, sums))
         code = RETEX_EXR_NON_FINITE;
