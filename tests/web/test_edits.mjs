@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { fails, near, random, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 
-const { srgbDecode, readColor, parseColor, parseEdit, editText, parseLamp, lampText, lampColor, kelvinColor, miredOf, kelvinOf, lampsOf, parameterColors } = player();
+const { srgbDecode, readColor, parseColor, parseEdit, editText, parseLamp, lampText, lampColor, kelvinColor, miredOf, kelvinOf, lampsOf, parameterColors, parsePreset } = player();
 
 /* ---- colours ---- */
 
@@ -163,4 +163,10 @@ test("random states come back from their texts", () => {
     same(parseEdit(text), state, text);
     same(editText(parseEdit(text)), text);
   }
+});
+
+test("a preset with a name that is no address is refused by a sentence", async () => {
+  const preset = (edit) => parsePreset(JSON.stringify({ "retex-preset": 1, edit }), "https://a.org/looks/b.json", "https://a.org/");
+  same(preset("Floor=c d.jpg").textures.Floor.source, "looks/c%20d.jpg");
+  for (const name of ["\ud800.jpg", "https://[", "http://"]) await fails(() => preset(`Floor=${name}`), `'${name}' is no address of an image.`, name);
 });

@@ -201,7 +201,12 @@ export function parsePreset(text, address, folder) {
   }
   if (preset?.["retex-preset"] !== 1 || typeof preset.edit !== "string") throw new Error("it is no preset of version 1.");
   const from = (name) => {
-    const { href } = new URL(/^[a-z][a-z\d+.-]*:/i.test(name) ? name : name.split("/").map(encodeURIComponent).join("/"), address);
+    let href;
+    try {
+      ({ href } = new URL(/^[a-z][a-z\d+.-]*:/i.test(name) ? name : name.split("/").map(encodeURIComponent).join("/"), address));
+    } catch {
+      throw new Error(`'${name}' is no address of an image.`);
+    }
     return href.startsWith(folder) ? href.slice(folder.length) : href;
   };
   const state = parseEdit(preset.edit);
