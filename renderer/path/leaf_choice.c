@@ -17,10 +17,10 @@ static double leaf_number(const Path *path, unsigned texture)
 /* From the topmost down, which is the order of hits along the path. */
 static void pass_layers(PathWorker *w, Path *path, const Surface *whole, const Leaves *leaves, int k)
 {
-    const LayerAbove *above = &leaves->above[k];
-    Shading layer;
     if (k < 0)
         return;
+    const LayerAbove *above = &leaves->above[k];
+    Shading layer;
     pass_layers(w, path, whole, leaves, above->above);
     shading_above(&layer, whole, above, w->variants, w->context->nvariants);
     path_apply_factor(w, path, &layer, (Split){rgb_grey(above->d), rgb_grey(above->i)}, NULL, NULL, NULL, 0);
