@@ -93,11 +93,17 @@ def functions_of(source):
     """The function in which each line of a C file is, by its number from 1."""
     found, function = [""], ""
     for line in source:
-        match = re.match(r"[A-Za-z_][\w \t*]*?\**(\w+)\(", line)
-        if match and not line.rstrip().endswith(";"):
+        match = re.match(r"[A-Za-z_][\w \t*]*?\**(\w+)\(", re.sub(r"__attribute__\(\(\w+\)\) ", "", line))
+        if match and match[1] != "__attribute__" and not line.rstrip().endswith(";"):
             function = match[1]
         found.append(function)
     return found
+
+
+def other_level():
+    """The ending of functions that this processor never runs: kernels are compiled once a level, see retex/host/cpu.h."""
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return "_avx2" if "avx512f" in file.read() else "_avx512"
 
 
 def mutants_of(path, assembly):
@@ -105,13 +111,16 @@ def mutants_of(path, assembly):
     with open(path, encoding="utf-8") as file:
         source = file.read().splitlines()
     functions = functions_of(source)
-    own, line, found, turns, in_text = set(), 0, [], {}, True
+    own, line, found, turns, in_text, other = set(), 0, [], {}, True, other_level()
+    runs = True
     for place, text in enumerate(assembly):
         words = text.split("#")[0].split(None, 1)
         if not words:
             continue
         if words[0] in (".text", ".section", ".data", ".bss"):
             in_text = words[0] == ".text"
+        elif text[0] not in "\t .#":
+            runs = not text.split(":")[0].endswith(other)
         elif words[0] == ".file":
             match = re.match(r'(\d+) (?:".*" )?"(.*)"', words[1])
             if match and os.path.normpath(match[2]) == path:
@@ -119,7 +128,7 @@ def mutants_of(path, assembly):
         elif words[0] == ".loc":
             file, number = words[1].split()[:2]
             line = int(number) if file in own else 0
-        elif line and in_text and text[0] == "\t" and words[0][0] != "." and "GOTPCREL" not in text:
+        elif line and in_text and runs and text[0] == "\t" and words[0][0] != "." and "GOTPCREL" not in text:
             operands = split_operands(words[1].strip() if len(words) > 1 else "")
             for kind, new in changes(words[0], operands):
                 mutant = Mutant(path, line, functions[line], " ".join(source[line - 1].split()), place,

@@ -26,7 +26,8 @@ def digest(path):
 
 
 def tests_of(suite):
-    """The names of a suite's tests."""
+    """The names of a suite's tests; SUITE/NAME is one test."""
+    suite, _, only = suite.partition("/")
     found = []
     for name in sorted(os.listdir(f"tests/{suite}")):
         path = f"tests/{suite}/{name}" + ("/command" if suite == "golden" else "")
@@ -36,7 +37,7 @@ def tests_of(suite):
                 if not name.startswith("test_"):
                     continue
                 name = name[5:]
-            if suite != "unit" or name.startswith("test_"):
+            if (suite != "unit" or name.startswith("test_")) and only in ("", name):
                 found.append(f"{suite}/{name}")
     return found
 
@@ -135,10 +136,11 @@ class Coverage:
     def reaching(self, path, line, suites):
         """The tests that reach a line, suites in order, the shortest first."""
         found = []
-        for test, record in self.tests.items():
-            if test.split("/")[0] in suites and path in record["files"]:
-                if (test, path) not in self.sets:
-                    self.sets[test, path] = set(record["files"][path][1])
-                if line in self.sets[test, path]:
-                    found.append(test)
-        return sorted(found, key=lambda test: (suites.index(test.split("/")[0]), self.seconds(test)))
+        for order, suite in enumerate(suites):
+            for test in tests_of(suite):
+                if path in self.tests.get(test, {"files": ()})["files"]:
+                    if (test, path) not in self.sets:
+                        self.sets[test, path] = set(self.tests[test]["files"][path][1])
+                    if line in self.sets[test, path]:
+                        found.append((order, self.seconds(test), test))
+        return [test for _, _, test in sorted(found)]

@@ -4,7 +4,7 @@
     run.py AREA…    COUNT=60 mutants of each area, drawn by SEED=1; `all` is all areas
 
 An area is a room of the renderer, the library or the tools; `player` is tools/web, whose mutants are of operators in
-the source. SUITES='unit cli golden' are run, those tests whose coverage reaches the line, until one fails; they may
+the source. SUITES='unit cli golden' are run, or single tests such as cli/lamps, those whose coverage reaches the line, until one fails; they may
 take MUTANT_SECONDS=120 for one mutant. What was found is kept in
 $BUILD/branches/results and not done again while the code and the tests are the same. Survivors that make no difference
 are in equivalent.txt. Prints each survivor and a table. See tests/README.md."""

@@ -5,6 +5,7 @@
 #include "lib_scene.h"
 #include "render/render.h"
 #include "set/set.h"
+#include "film/footprints/pixel.h"
 
 enum { WIDTH = 24, HEIGHT = 18 };
 
@@ -119,6 +120,9 @@ static int count_covered(RetexSet *set)
     int count = 0;
     for (int i = 0; i < WIDTH * HEIGHT && retex_set_find_part(set, "uv_T_quadrants") >= 0; i++)
         count += pixel_of(set, "uv_T_quadrants", i)[2] > 0;
+    for (int k = 0; k < set->nfootprints; k++)
+        for (int i = 0; i < k; i++) /* quadrants and clusters have numbers of their own */
+            assert_int_not_equal(set->footprints[i].hit, set->footprints[k].hit);
     retex_set_close(&set);
     return count;
 }
@@ -144,12 +148,45 @@ static void other_pixels_have_clusters(void **state)
                      0);
 }
 
+/* Of an even map, the regression is the map, wherever the paths of a pixel lie. */
+static void an_even_map_is_found(void **state)
+{
+    (void)state;
+    static const int periodic[1][2] = {{0, 0}};
+    unsigned seed = 1;
+    for (int n = 0; n < 50; n++) {
+        double map[6];
+        for (int k = 0; k < 6; k++)
+            map[k] = 2 * test_random(&seed) - 1;
+        if (fabs(map[0] * map[3] - map[1] * map[2]) < 0.05)
+            continue;
+        Quadrants q = {.target = QUADRANTS_NONE};
+        for (int k = 0; k < 20; k++) {
+            const double x = 0.5 * test_random(&seed) * test_random(&seed) + (k % 2 ? 0.5 : 0);
+            const double y = 0.5 * test_random(&seed) + (k / 2 % 2 ? 0.5 : 0);
+            const float place[2] = {(float)x, (float)y};
+            const SeenTarget seen = {.uv = {map[0] * place[0] + map[2] * place[1] + map[4],
+                                            map[1] * place[0] + map[3] * place[1] + map[5]},
+                                     .place = {place[0], place[1]}};
+            quadrants_start_path(&q, &seen, periodic);
+        }
+        PixelMap found;
+        q.weight = 1;
+        assert_int_equal(quadrants_find_map(&q, periodic, &found), 1);
+        for (int k = 0; k < 4; k++)
+            assert_true(fabs(found.axes[k] - map[k]) < 1e-9);
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs(found.uv[k] - (map[k] + map[2 + k]) / 2 - map[4 + k]) < 1e-9);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quadrants_fill_pixels),
         cmocka_unit_test(quadrants_have_their_own_light),
         cmocka_unit_test(other_pixels_have_clusters),
+        cmocka_unit_test(an_even_map_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

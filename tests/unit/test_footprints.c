@@ -34,6 +34,49 @@ static void two_places_are_two_clusters(void **state)
     end_film(&f);
 }
 
+/* Light of one channel alone is light. */
+static void red_green_and_blue_light_are_kept(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const int c = k % 3, sharp = k / 3 ? SHARP : BROAD;
+        Fixture f;
+        begin_film(&f, 1, 1, 6, 1, 1);
+        create_film(&f);
+        one_hit(&f, 0.125, 0.25, rgb_grey(1), sharp, rgb(c == 0, c == 1, c == 2));
+        finish_film(&f);
+        expect_rgb(part(&f, sharp == SHARP ? "dep_Floor_sharp1" : "dep_Floor_broad1"), c == 0, c == 1, c == 2, 1e-3);
+        expect_beauty(&f, 0);
+        end_film(&f);
+    }
+}
+
+/* Of four targets, a lamp needs 2 + 2 4 15 + 9 = 131 parts or more while all 15 combinations of up to two further hits are
+ * kept: twelve of them need more than a set can have, and get fewer. With no combinations of two, 6 coefficients are
+ * left: 27 lamps need 27 (2 + 2 4 6 + 9) = 1593 parts, too many. */
+static void many_lamps_have_fewer_combinations(void **state)
+{
+    (void)state;
+    static const int lamps[] = {1, 5, 10, 15, 20, 27};
+    for (size_t k = 0; k < sizeof lamps / sizeof *lamps; k++) {
+        Fixture f;
+        RetexError err = {0};
+        begin_film(&f, 4, 1, 6, 1, 1);
+        f.scene.nkept = f.params.nkept = lamps[k];
+        for (int l = 0; l < lamps[k]; l++) {
+            f.scene.kept[l].combination = -1;
+            snprintf(f.scene.kept[l].name, sizeof f.scene.kept[l].name, "lamp%d", l);
+        }
+        const int code = film_create(&f.film, &f.scene, &f.params, &err);
+        if (lamps[k] < 22)
+            test_must(code, &err);
+        else
+            assert_int_equal(code, RETEX_ELIMIT);
+        assert_true(lamps[k] < 22 || strstr(err.message, "take fewer targets, lamps, finishes or clusters"));
+        film_close(&f.film);
+    }
+}
+
 static void what_is_not_needed_is_left_out(void **state)
 {
     (void)state;
@@ -261,7 +304,9 @@ static void a_seam_is_one_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_places_are_two_clusters), cmocka_unit_test(what_is_not_needed_is_left_out),
+        cmocka_unit_test(two_places_are_two_clusters), cmocka_unit_test(red_green_and_blue_light_are_kept),
+        cmocka_unit_test(many_lamps_have_fewer_combinations),
+        cmocka_unit_test(what_is_not_needed_is_left_out),
         cmocka_unit_test(the_set_says_what_is_what),   cmocka_unit_test(a_cluster_knows_its_spread),
         cmocka_unit_test(the_nearest_places_merge),    cmocka_unit_test(sharp_and_broad_stay_apart),
         cmocka_unit_test(one_place_may_be_met_twice),  cmocka_unit_test(pixels_do_not_mix),

@@ -2,6 +2,7 @@
 #include "lib_film.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -212,6 +213,29 @@ static void shares_add_up(void **state)
     end_film(&f);
 }
 
+/* The albedo of interreflections that are kept as one is that by which all their light, times it, is what they reflect. */
+static void albedos_of_interreflections_weigh_by_light(void **state)
+{
+    (void)state;
+    static const float albedo[] = {0.25f, 0.75f}, seen[] = {0.5f, 0.75f}, light[] = {16, 2};
+    float all = 0, reflected = 0;
+    Fixture f;
+    begin_film(&f, 2, 2, 6, 1, 1);
+    create_film(&f);
+    for (int n = 0; n < 2; n++) {
+        begin_path(&f);
+        hit(&f, 1, 0.25, 0.5, rgb_grey(seen[n]), SHARP);
+        hit(&f, 0, 0.125, 0.5, rgb_grey(albedo[n]), BROAD);
+        connect_light(&f, rgb_grey(light[n]));
+        end_path(&f);
+        all += seen[n] * light[n], reflected += seen[n] * light[n] * albedo[n];
+    }
+    finish_film(&f);
+    const float mean = reflected / all;
+    expect_rgb(part(&f, "albedo_Floor_interreflection1"), mean, mean, mean, 2e-3);
+    end_film(&f);
+}
+
 /* What one target's albedo is does not depend on another that is black: that one may be edited. */
 static void a_black_target_hides_no_other(void **state)
 {
@@ -335,6 +359,59 @@ static void hits_are_a_tree(void **state)
     end_film(&f);
 }
 
+/* Light of two hits, multiplied out: (d1 a1 + i1) (d2 a2 + i2) L, where a is a texture. Of each lamp it is kept by what
+ * the eye sees: the mean of the paths, of which some have no light of a lamp. */
+static void light_of_lamps_is_multiplied_out(void **state)
+{
+    (void)state;
+    static const Split first = {{1, 0.5f, 0.25f}, {0.25f, 1, 0.5f}}, second = {{0.5f, 0.25f, 1}, {1, 0.5f, 0.125f}};
+    static const Rgb lights[2][2] = {{{4, 2, 8}, {0, 0, 0}}, {{2, 8, 2}, {1, 4, 2}}}; /* by path and lamp */
+    Fixture f;
+    begin_film(&f, 1, 2, 6, 1, 1);
+    f.scene.nkept = f.params.nkept = 2;
+    for (int l = 0; l < 2; l++) {
+        f.scene.kept[l].combination = -1;
+        snprintf(f.scene.kept[l].name, sizeof f.scene.kept[l].name, l ? "sun" : "bulb");
+    }
+    create_film(&f);
+    for (int k = 0; k < 2; k++) {
+        LampLight lamps[2];
+        begin_path(&f);
+        split_hit(&f, 0, 0.125, 0.25, rgb_grey(0.5f), SHARP, first);
+        split_hit(&f, 0, 0.625, 0.75, rgb_grey(0.25f), SHARP, second);
+        for (int l = 0; l < 1 + k; l++) {
+            const Rgb light = lights[k][l];
+            connect_light(&f, light);
+            lamps[l] = (LampLight){.dependent = color4(second.d) * color4(light),
+                                   .independent = color4(second.i) * color4(light),
+                                   .light = color4(rgb_mul(light, f.value)),
+                                   .hit = f.hits.last,
+                                   .earlier = f.hits.lamp_light,
+                                   .kept = l};
+            f.hits.lamp_light = &lamps[l];
+        }
+        end_path(&f);
+    }
+    finish_film(&f);
+    for (int l = 0; l < 2; l++) {
+        const char *const lamp = l ? "sun" : "bulb";
+        const Rgb light = rgb_scale(rgb_add(lights[0][l], lights[1][l]), 0.5f);
+        const Rgb none = rgb_mul(light, rgb_mul(first.i, second.i)), both = rgb_mul(light, rgb_mul(first.d, second.d));
+        const Rgb one = rgb_mul(light, rgb_add(rgb_mul(first.d, second.i), rgb_mul(first.i, second.d)));
+        const Rgb all = rgb_mul(light, f.value);
+        char name[64];
+        snprintf(name, sizeof name, "lamp_%s", lamp);
+        expect_rgb(part(&f, name), all.r, all.g, all.b, 1e-3);
+        snprintf(name, sizeof name, "lamp_%s_indep", lamp);
+        expect_rgb(part(&f, name), none.r, none.g, none.b, 1e-3);
+        snprintf(name, sizeof name, "lamp_%s_Floor_sharp", lamp);
+        expect_rgb(part(&f, name), one.r, one.g, one.b, 1e-3);
+        snprintf(name, sizeof name, "lamp_%s_Floor_sharp_a1", lamp);
+        expect_rgb(part(&f, name), both.r, both.g, both.b, 1e-3);
+    }
+    end_film(&f);
+}
+
 static void a_plain_film_keeps_the_beauty(void **state)
 {
     (void)state;
@@ -363,6 +440,8 @@ int main(void)
         cmocka_unit_test(a_black_target_hides_no_other),
         cmocka_unit_test(folded_light_is_counted_as_white),
         cmocka_unit_test(light_of_a_tile_is_counted_once),
+        cmocka_unit_test(albedos_of_interreflections_weigh_by_light),
+        cmocka_unit_test(light_of_lamps_is_multiplied_out),
         cmocka_unit_test(a_plain_film_keeps_the_beauty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -120,6 +120,59 @@ static void one_hit_has_two_parts(void **state)
     end_film(&f);
 }
 
+/* A pixel's footprint of a hit is the mean and the standard deviation of the places of its paths. */
+static void footprints_are_means_and_deviations(void **state)
+{
+    (void)state;
+    static const double u[] = {0.125, 0.375, 0.875, 0.25, 0.75}, v[] = {0.5, 0.25, 0.625, 0.75, 0.125};
+    enum { COUNT = sizeof u / sizeof *u };
+    double mean[2] = {0, 0}, square[2] = {0, 0};
+    Fixture f;
+    begin_film(&f, 1, COUNT, 6, 1, 1);
+    f.params.layout = &paper_layout;
+    create_film(&f);
+    for (int k = 0; k < COUNT; k++) {
+        begin_path(&f);
+        split_hit(&f, 0, u[k], v[k], rgb_grey(0.5f), 1, split_of(1));
+        connect_light(&f, LIGHT);
+        end_path(&f);
+        mean[0] += u[k] / COUNT, mean[1] += v[k] / COUNT;
+        square[0] += u[k] * u[k] / COUNT, square[1] += v[k] * v[k] / COUNT;
+    }
+    finish_film(&f);
+    for (int a = 0; a < 2; a++) {
+        assert_float_equal(part(&f, "uv_Floor_1")[a], mean[a], 1e-5);
+        assert_float_equal(part(&f, "spread_Floor_1")[a], sqrt(square[a] - mean[a] * mean[a]), 2e-4);
+    }
+    end_film(&f);
+}
+
+/* The last hit that is kept apart of a single target also stands for all further hits: its term has one more factor, of
+ * its place. Where hits are not kept apart, or there are other targets, none has. */
+static void the_last_hit_stands_for_further_ones(void **state)
+{
+    (void)state;
+    for (int ntargets = 1; ntargets <= 2; ntargets++)
+        for (int orders = 1; orders <= 3; orders++) {
+            Fixture f;
+            begin_film(&f, ntargets, 1, orders, 1, 1);
+            f.params.layout = &paper_layout;
+            create_film(&f);
+            one_path(&f, "aaa" + 3 - orders);
+            int further = 0;
+            for (int k = 0; k < f.set->nterms; k++) {
+                const RetexTerm *term = &f.set->terms[k];
+                const int count = term->nfactors;
+                for (int i = 0; i < count; i++)
+                    further += term->factors[i].quantity == RETEX_QUANTITY_FURTHER;
+                if (count && term->factors[count - 1].quantity == RETEX_QUANTITY_FURTHER)
+                    assert_int_equal(test_factor_number(term->factors[count - 1]), orders - 1);
+            }
+            assert_int_equal(further, ntargets == 1 && orders > 1);
+            end_film(&f);
+        }
+}
+
 static void two_hits_have_the_supplements_cross_terms(void **state)
 {
     (void)state;
@@ -291,6 +344,8 @@ static void no_terms_have_other_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_hit_has_two_parts),
+                                       cmocka_unit_test(footprints_are_means_and_deviations),
+                                       cmocka_unit_test(the_last_hit_stands_for_further_ones),
                                        cmocka_unit_test(two_hits_have_the_supplements_cross_terms),
                                        cmocka_unit_test(three_hits_have_them_in_the_supplements_order),
                                        cmocka_unit_test(two_targets_are_named_by_their_hits),
