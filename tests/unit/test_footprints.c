@@ -1,5 +1,6 @@
 /* Layout footprints, through the film: which places of the first hits of light paths a pixel keeps. */
 #include "lib_film.h"
+#include "lib_folder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -75,6 +76,39 @@ static void many_lamps_have_fewer_combinations(void **state)
         assert_true(lamps[k] < 22 || strstr(err.message, "take fewer targets, lamps, finishes or clusters"));
         film_close(&f.film);
     }
+}
+
+/* A film whose band is in a checkpoint is the same film again, without its paths. */
+static void a_film_continues_from_its_checkpoint(void **state)
+{
+    (void)state;
+    const char *const path = test_in_folder("checkpoint");
+    RetexError err = {0};
+    Fixture f;
+    for (int again = 0; again < 2; again++) {
+        begin_film(&f, 1, 1, 6, 1, 1);
+        test_must(retex_band_store_open(&f.params.store, 2, 1, 7, path, 1, &err), &err);
+        create_film(&f);
+        test_must(film_resume(f.film, &err), &err);
+        assert_int_equal(film_bands_done(f.film), again);
+        if (!again) {
+            one_hit(&f, 0.125, 0.25, rgb(0.5f, 0.25f, 1), SHARP, rgb(1, 2, 3));
+            film_pixel_end(f.pixel, 0, 0);
+            film_pixel_end(f.pixel, 1, 0);
+            film_tile_end(f.pixel, 0);
+            film_pixel_close(&f.pixel);
+            assert_int_equal(film_bands_done(f.film), 1);
+            film_close(&f.film);
+        }
+    }
+    film_pixel_close(&f.pixel);
+    test_must(retex_set_create(&f.set, 2, 1, &err), &err);
+    test_must(retex_set_add_part(f.set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
+    test_must(film_finish(f.film, f.set, &err), &err);
+    expect_rgb(part(&f, "beauty"), 0.5f, 0.5f, 3, 0);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 1, 2, 3, 1e-3);
+    expect_rgb(part(&f, "albedo_Floor_sharp1"), 0.5f, 0.25f, 1, 1e-6);
+    end_film(&f);
 }
 
 static void what_is_not_needed_is_left_out(void **state)
@@ -306,11 +340,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_places_are_two_clusters), cmocka_unit_test(red_green_and_blue_light_are_kept),
         cmocka_unit_test(many_lamps_have_fewer_combinations),
+        cmocka_unit_test(a_film_continues_from_its_checkpoint),
         cmocka_unit_test(what_is_not_needed_is_left_out),
         cmocka_unit_test(the_set_says_what_is_what),   cmocka_unit_test(a_cluster_knows_its_spread),
         cmocka_unit_test(the_nearest_places_merge),    cmocka_unit_test(sharp_and_broad_stay_apart),
         cmocka_unit_test(one_place_may_be_met_twice),  cmocka_unit_test(pixels_do_not_mix),
         cmocka_unit_test(a_seam_is_one_place),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
