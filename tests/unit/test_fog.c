@@ -93,6 +93,39 @@ static void test_ground_density(void **state)
     }
 }
 
+/* A level ray has one density all its way. */
+static void test_level_rays(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        const double y = -0.5 + 0.25 * k, h = (y - 0.4) / 0.9, density = h > 0 ? 1 / (1 + h * h) : 1;
+        const Rgb seen = seen_through("fog{fog_type 2 distance 2.5 fog_offset .4 fog_alt .9}", vec3(0, y, 0), vec3(3, y, 4));
+        assert_float_equal(seen.r / 0.8, exp(-5 * density / 2.5), 1e-5);
+    }
+}
+
+/* The pattern of turbulence is stretched by its vector: half of it at twice the place is the same. */
+static void test_turbulence_is_stretched(void **state)
+{
+    (void)state;
+    static const char *const fogs[] = {"fog{distance 3 rgb <.2,.3,.9> turbulence <.3,.7,1.5> turb_depth .9}",
+                                       "fog{distance 3 rgb <.2,.3,.9> turbulence <.15,.7,1.5> turb_depth .9}",
+                                       "fog{distance 3 rgb <.2,.3,.9> turbulence <.3,.35,1.5> turb_depth .9}",
+                                       "fog{distance 3 rgb <.2,.3,.9> turbulence <.3,.7,.75> turb_depth .9}"};
+    for (int k = 0; k < 3; k++) {
+        double by[3] = {1, 1, 1};
+        by[k] = 2;
+        const double along[3] = {k == 0 ? 0 : 2, k == 1 ? 0 : k == 0 ? 2 : 1, k == 2 ? 0 : 1};
+        const Vec3 from = {0.7, 1.3, 2.1}, there = {0.7 * by[0], 1.3 * by[1], 2.1 * by[2]};
+        const Vec3 way = vec3(along[0], along[1], along[2]);
+        const Rgb a = seen_through(fogs[0], from, vec_add(from, way));
+        const Rgb b = seen_through(fogs[1 + k], there, vec_add(there, way));
+        const Rgb elsewhere = seen_through(fogs[1 + k], from, vec_add(from, way));
+        assert_rgb(a, b);
+        assert_true(fabsf(a.r - elsewhere.r) > 2e-3f);
+    }
+}
+
 /* Where the camera stands in something that is not hollow there is no fog. */
 static void test_camera_inside(void **state)
 {
@@ -123,6 +156,8 @@ int main(void)
         cmocka_unit_test(test_povray),
         cmocka_unit_test(test_several),
         cmocka_unit_test(test_ground_density),
+        cmocka_unit_test(test_level_rays),
+        cmocka_unit_test(test_turbulence_is_stretched),
         cmocka_unit_test(test_camera_inside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

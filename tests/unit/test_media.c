@@ -62,6 +62,77 @@ static void test_sampled(void **state)
     }
 }
 
+/* Light of light sources: POV-Ray's formulas of its manual and its source, which a scale makes of the density. */
+static void test_light_sources(void **state)
+{
+    (void)state;
+    for (int k = 0; k < PHASES; k++) {
+        const double g = media[k].eccentricity;
+        for (int i = 0; i <= 20; i++) {
+            const double c = i * 0.1 - 1, x = (1 + c) / 2;
+            const double wanted[] = {1, 0.576655375 * (1 + 9 * pow(x, 8)), 0.495714547 * (1 + 50 * pow(x, 32)),
+                                     0.799372013 * (1 + c * c), (1 - g * g) / pow(1 + g * g - 2 * g * c, 1.5)};
+            const double value = phase_of_sources(&media[k], c);
+            assert_true(fabs(value * PI / wanted[k < 4 ? k : 4] - 1) < 1e-9);
+            assert_true(fabs(phase_source_scale(&media[k]) * phase_density(&media[k], c) / value - 1) < 1e-9);
+        }
+    }
+}
+
+static void assert_sums(const MediumSums *sums, double share)
+{
+    for (int c = 0; c < 3; c++) {
+        const double density[] = {0.25, 0.5, 1}, absorption[] = {0.1, 0.2, 0.3}, scattering[] = {0.8, 0.4, 0.2};
+        assert_float_equal(sums->density[0][c], share * density[c], 1e-6);
+        assert_float_equal(sums->extinction[c], share * density[c] * (absorption[c] + 0.75 * scattering[c]), 1e-6);
+        assert_float_equal(sums->scattering[c], share * density[c] * 0.75 * scattering[c], 1e-6);
+        assert_float_equal(sums->emission[c], share * density[c] * (c + 1), 1e-6);
+    }
+}
+
+/* The density multiplies all coefficients; all are scaled down to a bound, if there is one. */
+static void test_coefficients(void **state)
+{
+    (void)state;
+    const Pigment density = {.kind = PIGMENT_COLOR, .color = {0.25f, 0.5f, 1, 0, 0}}, *const densities[] = {&density};
+    const Medium medium = {.phase = PHASE_ISOTROPIC,
+                           .absorption = {0.1f, 0.2f, 0.3f},
+                           .scattering = {0.8f, 0.4f, 0.2f},
+                           .emission = {1, 2, 3},
+                           .extinction = 0.75,
+                           .ndensities = 1,
+                           .densities = densities,
+                           .most = {0.25f, 0.5f, 1}};
+    MediumSet set = {.count = 0};
+    MediumSums sums;
+    medium_set_add(&set, &medium);
+    medium_set_complete(&set);
+    assert_true(set.varies && set.scatters && set.emits);
+    assert_float_equal(set.majorant, 0.45, 1e-6);
+    for (int k = 0; k < 3; k++) {
+        static const float most[] = {0, 0.9f, 0.225f}; /* none, enough, half */
+        medium_at(&set, vec3(0.1, 0.2, 0.3), most[k], &sums);
+        assert_sums(&sums, k == 2 ? 0.5 : 1);
+    }
+}
+
+/* Where nothing says between which values a density lies, it is between 0 and 1. */
+static void test_bounds(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "media{scattering{1,1} density{wrinkles}}"
+                             "media{scattering{1,1} density{wrinkles color_map{[0 rgb <.5,1,2>][1 rgb <3,.25,1>]}}}"
+                             "media{scattering{1,1} density{granite density_map{[0 rgb .5][1 rgb 3]}}} sphere{9,1}");
+    static const Rgb wanted[] = {{1, 1, 1}, {3, 1, 2}, {3, 3, 3}};
+    int k = 3;
+    for (const Medium *m = scene->media; m; m = m->next) { /* the last comes first */
+        const Rgb most = density_bound(m->densities[0]), want = wanted[--k];
+        assert_true(most.r == want.r && most.g == want.g && most.b == want.b);
+    }
+    assert_int_equal(k, 0);
+    scene_close(&scene);
+}
+
 /* Of POV-Ray 3.7: a ball of 2 units of `scattering{TYPE, <.02,.1,.01>}` before black, a light at 60 degrees from the
  * direction of view: what it shows is here, per colour of the light. */
 static void test_povray(void **state)
@@ -160,7 +231,10 @@ static void test_two_densities(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normalised), cmocka_unit_test(test_sampled),       cmocka_unit_test(test_povray),
+        cmocka_unit_test(test_normalised), cmocka_unit_test(test_sampled),
+        cmocka_unit_test(test_light_sources),
+        cmocka_unit_test(test_coefficients),
+        cmocka_unit_test(test_bounds),       cmocka_unit_test(test_povray),
         cmocka_unit_test(test_language),   cmocka_unit_test(test_two_densities),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
