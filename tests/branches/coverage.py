@@ -135,12 +135,12 @@ class Coverage:
 
     def reaching(self, path, line, suites):
         """The tests that reach a line, suites in order, the shortest first."""
-        found = []
-        for order, suite in enumerate(suites):
+        found, order = [], list(dict.fromkeys(suite.split("/")[0] for suite in suites))
+        for suite in suites:
             for test in tests_of(suite):
                 if path in self.tests.get(test, {"files": ()})["files"]:
                     if (test, path) not in self.sets:
                         self.sets[test, path] = set(self.tests[test]["files"][path][1])
                     if line in self.sets[test, path]:
-                        found.append((order, self.seconds(test), test))
+                        found.append((order.index(test.split("/")[0]), self.seconds(test), test))
         return [test for _, _, test in sorted(found)]
