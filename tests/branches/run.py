@@ -62,12 +62,23 @@ class Results:
     """What each test said of each mutant, by digests of the code and of the test; a file that grows."""
 
     def __init__(self, path):
-        self.path, self.known = path, {}
+        self.path, self.known, self.deaths = path, {}, {}
         if os.path.exists(path):
             with open(path, encoding="utf-8") as file:
                 for line in file:
                     mutant, code, test, of_test, outcome = line.rstrip("\n").rsplit("|", 4)
-                    self.known[mutant, code, test, of_test] = outcome
+                    self.keep(mutant, code, test, of_test, outcome)
+
+    def keep(self, mutant, code, test, of_test, outcome):
+        """In memory."""
+        self.known[mutant, code, test, of_test] = outcome
+        if outcome == "died":
+            self.deaths.setdefault((mutant, code), []).append((test, of_test))
+
+    def killer(self, mutant, code):
+        """A test that noticed a mutant, and is as it was then."""
+        deaths = self.deaths.get((mutant, code), [])
+        return next((test for test, of_test in deaths if coverage.digest(coverage.file_of(test)) == of_test), None)
 
     def get(self, *key):
         """`died`, `passed` or None."""
@@ -75,7 +86,7 @@ class Results:
 
     def put(self, *key, outcome):
         """Keep what was found."""
-        self.known[key] = outcome
+        self.keep(*key, outcome)
         with open(self.path, "a", encoding="utf-8") as file:
             file.write("|".join(key) + f"|{outcome}\n")
 
@@ -175,6 +186,9 @@ class Judge:
 
     def judge(self, mutant, change):
         """The test that noticed a mutant or None, and how many tests reach it."""
+        killer = self.results.killer(mutant.name, self.subject.digest(mutant))
+        if killer:
+            return killer, 0
         tests = self.subject.tests(mutant)
         return next((test for test in tests if self.notices(mutant, change, test)), None), len(tests)
 

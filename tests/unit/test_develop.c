@@ -89,7 +89,8 @@ static void only_changes_are_needed(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(white_balance_is_bradfords), cmocka_unit_test(exposures_are_stops),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(white_balance_is_bradfords),
+                                       cmocka_unit_test(exposures_are_stops),
                                        cmocka_unit_test(only_changes_are_needed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

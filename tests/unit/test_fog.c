@@ -99,7 +99,8 @@ static void test_level_rays(void **state)
     (void)state;
     for (int k = 0; k < 20; k++) {
         const double y = -0.5 + 0.25 * k, h = (y - 0.4) / 0.9, density = h > 0 ? 1 / (1 + h * h) : 1;
-        const Rgb seen = seen_through("fog{fog_type 2 distance 2.5 fog_offset .4 fog_alt .9}", vec3(0, y, 0), vec3(3, y, 4));
+        const Vec3 from = {0, y, 0}, to = {3, y, 4};
+        const Rgb seen = seen_through("fog{fog_type 2 distance 2.5 fog_offset .4 fog_alt .9}", from, to);
         assert_float_equal(seen.r / 0.8, exp(-5 * density / 2.5), 1e-5);
     }
 }

@@ -52,9 +52,9 @@ static void red_green_and_blue_light_are_kept(void **state)
     }
 }
 
-/* Of four targets, a lamp needs 2 + 2 4 15 + 9 = 131 parts or more while all 15 combinations of up to two further hits are
- * kept: twelve of them need more than a set can have, and get fewer. With no combinations of two, 6 coefficients are
- * left: 27 lamps need 27 (2 + 2 4 6 + 9) = 1593 parts, too many. */
+/* Of four targets, a lamp needs 2 + 2 4 15 + 9 = 131 parts or more while all 15 combinations of up to two further hits
+ * are kept: twelve of them need more than a set can have, and get fewer. With no combinations of two, 6 coefficients
+ * are left: 27 lamps need 27 (2 + 2 4 6 + 9) = 1593 parts, too many. */
 static void many_lamps_have_fewer_combinations(void **state)
 {
     (void)state;
@@ -108,6 +108,7 @@ static void a_film_continues_from_its_checkpoint(void **state)
     expect_rgb(part(&f, "beauty"), 0.5f, 0.5f, 3, 0);
     expect_rgb(part(&f, "dep_Floor_sharp1"), 1, 2, 3, 1e-3);
     expect_rgb(part(&f, "albedo_Floor_sharp1"), 0.5f, 0.25f, 1, 1e-6);
+    expect_rgb(part(&f, "indep"), 0, 0, 0, 0);
     end_film(&f);
 }
 

@@ -213,7 +213,7 @@ static void shares_add_up(void **state)
     end_film(&f);
 }
 
-/* The albedo of interreflections that are kept as one is that by which all their light, times it, is what they reflect. */
+/* The albedo of interreflections that are kept as one: times it, all their light is what they reflect. */
 static void albedos_of_interreflections_weigh_by_light(void **state)
 {
     (void)state;
