@@ -25,7 +25,7 @@
 #   make fidelity-frames    whether frames of an animation flicker; BENCH_DOCS=1: docs/frames.md; takes an hour
 #   make fidelity-rooms     imported rooms of $RETEX_ROOMS beside Cycles and new renders: docs/imported-rooms.md
 #   make figures      the pages of measured figures in docs/, and those figures in README and man pages;
-#                     PAGES='post speed' FIGURES=small
+#                     in at most 100 minutes; PAGES='post speed', FULL=1 for large pictures and the paper's sizes
 #   make pictures     make the README's pictures in docs/pictures; takes long
 #   make compare-external DIR=FOLDER   score another method's pictures against the references; sheets in build/external
 #   make lint         check the project's rules that a script can check

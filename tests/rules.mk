@@ -177,7 +177,12 @@ bench-scale: all
 
 # How long retextures take and how large sets are, as in the paper's tables; and size against loss of packs.
 POST_PROGRAMS := $(BUILD)/tests/bench/post_floor $(BUILD)/tests/bench/post_measure
-.PHONY: bench-post bench-storage bench-paper bench-serve bench-catalogues
+.PHONY: bench-post bench-storage bench-paper bench-serve bench-catalogues bench-web paper-tables
+paper-tables:
+	@. tests/figures/head.sh; /usr/bin/python3 -B tests/bench/paper_tables.py docs "$$(figures_head paper-tables)" \
+	    >docs/paper-tables.md
+bench-web: all
+	@BUILD=$(BUILD) tests/bench/web/run.sh
 bench-post: all $(POST_PROGRAMS)
 	@BUILD=$(BUILD) tests/bench/post/run.sh
 bench-storage: all fidelity-textures
@@ -191,7 +196,7 @@ bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-normals fidelity-edits fidelity-rooms fidelity-models
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-normals fidelity-edits fidelity-rooms fidelity-models fidelity-blender
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
@@ -210,13 +215,15 @@ fidelity-models: all
 	@BUILD=$(BUILD) tests/fidelity/table/models.sh
 fidelity-edits: all
 	@BUILD=$(BUILD) tests/fidelity/table/edits.sh
+fidelity-blender: all
+	@BUILD=$(BUILD) tests/fidelity/table/blender-features.sh
 fidelity-rooms: all
 	@BUILD=$(BUILD) tests/fidelity/table/imported-rooms.sh
 
 # The pages with measured figures in docs/, and the figures of README and man pages from them. PAGES='…' chooses.
 .PHONY: figures
 figures: all
-	@BUILD=$(BUILD) PAGES='$(PAGES)' FIGURES='$(FIGURES)' tests/figures/run.sh
+	@BUILD=$(BUILD) PAGES='$(PAGES)' FULL='$(FULL)' tests/figures/run.sh
 
 # The pictures of docs/studio.md and the recording of README.md, by a walk through the page in Chromium.
 .PHONY: figures-studio

@@ -16,25 +16,34 @@ status=$?
 sed 's/^/# /' found
 result "$([ $status = 0 ] && ! [ -s found ] && echo 1)" "all texts have the figures of the pages"
 
-# finds FILE EDIT MESSAGE: of that file, edited by sed, quote.py prints the message alone, and exits with 1.
+# finds FILE EDIT MESSAGE [LINES]: of that file, edited by sed, quote.py prints the message, in so many lines as it says
+# (1), and exits with 1.
 finds() {
     again
     sed -i -E "$2" "$1"
     quote --check
     status=$?
-    result "$([ "$status $(wc -l <found)" = '1 1' ] && grep -qE "$3" found && echo 1)" "found: $3"
+    result "$([ "$status $(wc -l <found)" = "1 ${4:-1}" ] && grep -qE "$3" found && echo 1)" "found: $3"
 }
 finds README.md 's/\| 5\.1 MB/| 5.2 MB/' '^README.md:[0-9]+: post_size one pack: the text has 5.2 MB, the page 5.1 MB$'
 finds man/retex-pack.1 's/up to 0\.4 dB/up to 0.45 dB/' \
     '^man/retex-pack.1:[0-9]+: pack_gains rendered 90: the text has 0.45 dB, the page 0.4 dB$'
 finds README.md 's/plain picture, one target/picture/' \
-    '^README.md: no longer has: plain picture, one target \| \{overhead 1\} \| \[overhead\]$'
+    '^README.md: no longer has: plain picture, one target \| \{overhead 1\} \| \[overhead\]$' 2
 finds docs/faq.md 's/^- (A set takes.*two)$/- \1. \1/' \
     '^docs/faq.md: has more than once: A set takes \{overhead 1\} more time'
 finds docs/serve.csv 's/^(304,processor_ms),.*/\1,9/' \
     '^docs/serve.md:[0-9]+: serve_cost 304: the text has .* the page 9 ms$'
 finds docs/serve.csv '/^304,/d' '^docs/serve.md:[0-9]+: serve_cost 304: .*has no row with'
 
+finds docs/faq.md 's/(One core makes)/It takes 3.5 s. \1/' '^docs/faq.md:[0-9]+: no page makes the figure 3.5 s: '
+finds man/retex-serve.1 's/default 2048 MB/default 2049 MB/' '^man/retex-serve.1:[0-9]+: no page makes the figure 2049 MB: ' 2
+finds docs/web.md 's/requires 38 dB/asks for 38 dB/' '^given.txt: no text has: requires 38 dB' 2
+again
+sed -i '/^? common knowledge/,$d' tests/figures/given.txt
+quote --check
+result "$(grep -c '^docs/faq.md:[0-9]*: no page makes the figure 50 percent' found)" "a figure is given by its excerpt alone"
+cp "$OLDPWD/tests/figures/given.txt" tests/figures/
 again
 fmt -w 60 as-is/docs/serve.md >docs/serve.md
 result "$(quote --check && echo 1)" "lines may be broken elsewhere"

@@ -1,10 +1,12 @@
 """Figures in texts are those of the pages: quote.py --check | --update
 
 quotes.txt, beside this file, has excerpts of texts, with names of figures in place of the figures; FIGURES gives the
-names. Prints one line for each excerpt that is not once in its text, and for each figure that differs from docs/*.csv,
-and exits with 1. --update first writes the figures into the texts.
+names. Prints one line for each excerpt that is not once in its text, for each figure that differs from docs/*.csv, and
+for each figure with a unit that is neither quoted nor in given.txt, and exits with 1. --update first writes the figures
+into the texts.
 """
 import csv
+import glob
 import os
 import re
 import sys
@@ -65,6 +67,11 @@ def denoise_gain(method, samples):
 
 
 # ---- times and sizes ----
+
+def lamps_pack(count):
+    """Of a room with so many lamps over one with them together."""
+    return f"{one('lamps', 'value', subject='lamps', name=count, figure='pack ratio'):.1f} times"
+
 
 def post_size(targets, what):
     return megabytes(one("post", "file_bytes", kind="size", scene="living-room", targets=targets, what=what))
@@ -226,7 +233,7 @@ FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again
                                    post_seconds, post_memory, post_variants, catalogue_rate, overhead, overhead_of, paper_size, paper_psnr,
                                    paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
                                    lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles, serve_cost, serve_bytes,
-                                   serve_number, serve_rate, serve_clients_rate, serve_measured)}
+                                   serve_number, serve_rate, serve_clients_rate, serve_measured, lamps_pack)}
 
 
 def figure(name):
@@ -234,17 +241,36 @@ def figure(name):
     return FIGURES[function](*arguments)
 
 
+def blocks(name):
+    """Of a file of excerpts beside this one, the blocks between blank lines, without comments."""
+    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+        return filter(None, map(str.strip, re.sub(r"^#.*\n", "", file.read(), flags=re.M).split("\n\n")))
+
+
 def quotes():
     """Of quotes.txt: texts with their excerpts."""
-    with open(os.path.join(HERE, "quotes.txt"), encoding="utf-8") as file:
-        blocks = re.sub(r"^#.*\n", "", file.read(), flags=re.M).split("\n\n")
     texts = {}
-    for block in filter(None, map(str.strip, blocks)):
+    for block in blocks("quotes.txt"):
         if block.startswith("@ "):
             excerpts = texts.setdefault(block[2:], [])
         else:
             excerpts.append(block)
     return texts
+
+
+def given():
+    """Of given.txt: excerpts with the texts in which they may be."""
+    found, why = [], None
+    for block in blocks("given.txt"):
+        if block.startswith("? "):
+            why, paths = block[2:], None
+        elif block.startswith("@ "):
+            paths = sorted(glob.glob(block[2:]))
+        elif why and paths:
+            found.append((block, paths))
+        else:
+            sys.exit(f"given.txt: an excerpt without a reason or a file: {block}")
+    return found
 
 
 def pattern(excerpt):
@@ -274,11 +300,54 @@ def quoted(path, text, excerpt):
     return text, wrong
 
 
+# ---- figures that nobody measured ----
+
+NUMBER = r"(?<![\w./:-])(?:\d+(?:[.,]\d+)*|\.\d+)"
+UNIT = r"(?:dB|ms|s|seconds?|minutes?|hours?|KB|MB|GB|%|percent|fps|times(?= (?:as|the|faster|slower|smaller|larger|more)\b))"
+FIGURE = re.compile(rf"({NUMBER})[ \u00a0]?{UNIT}(?!\w)")
+
+
+def written():
+    """Texts that people write: not the pages that make figures makes, but docs/serve.md, which only quotes one."""
+    with open(os.path.join(HERE, "pages.txt"), encoding="utf-8") as file:
+        made = {f"docs/{line.split()[0]}.md" for line in file if not line.startswith("#")} - {"docs/serve.md"}
+    return ["README.md"] + [path for path in sorted(glob.glob("docs/*.md") + glob.glob("man/*.[1357]")) if path not in made]
+
+
+def prose(text):
+    """The text with blanks in place of the listings of Markdown."""
+    return re.sub(r"(?ms)^```.*?^```$|(?-s:^    .*$)", lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+
+
+def unmeasured(excerpts):
+    """A line for each figure that is neither quoted nor given, and for each given excerpt that is nowhere."""
+    wrong, allowed = [], {}
+    for excerpt, paths in given():
+        found = [(path, m.span()) for path in paths for m in re.finditer(pattern(excerpt), read(path))]
+        wrong += [] if found else [f"given.txt: no text has: {' '.join(excerpt.split())}"]
+        for path, span in found:
+            allowed.setdefault(path, []).append(span)
+    for path in written():
+        text = read(path)
+        spans = allowed.get(path, [])
+        spans += [m.span(k) for excerpt in excerpts.get(path, []) for m in re.finditer(pattern(excerpt), text)
+                  for k in range(1, m.re.groups + 1)]
+        for m in FIGURE.finditer(prose(text)):
+            if not any(low <= m.start(1) and m.end(1) <= high for low, high in spans):
+                wrong.append(f"{path}:{text.count(chr(10), 0, m.start()) + 1}: no page makes the figure {m[0]}: quote one "
+                             "(quotes.txt), say why it may stand (given.txt), or leave it out")
+    return wrong
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
 def main(mode):
-    status = 0
+    wrong = []
     for path, excerpts in quotes().items():
-        with open(path, encoding="utf-8") as file:
-            text = old = file.read()
+        text = old = read(path)
         if mode == "--update":
             for excerpt in excerpts:
                 text, _ = quoted(path, text, excerpt)
@@ -286,10 +355,11 @@ def main(mode):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         for excerpt in excerpts:
-            for line in quoted(path, text, excerpt)[1]:
-                print(line)
-                status = 1
-    return status
+            wrong += quoted(path, text, excerpt)[1]
+    wrong += unmeasured(quotes())
+    for line in wrong:
+        print(line)
+    return 1 if wrong else 0
 
 
 if __name__ == "__main__":

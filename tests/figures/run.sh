@@ -1,64 +1,71 @@
 #!/bin/sh
 # The pages with measured figures in docs/, made anew: make figures.
 #
-#   make figures                          all of pages.txt; takes more than a day on two cores
+#   make figures                          all of pages.txt, in at most 100 minutes on two cores
 #   make figures PAGES='fidelity speed'   some
-#   make figures FIGURES=small            smaller pictures, fewer turns; a few hours
+#   make figures FULL=1                   larger pictures, more turns, the paper's sizes: more than a day, for a release
 #
 # A page is made by one build on one machine. Its head names them, and the command. A page that the present build has
 # made is not made again, and one that was interrupted goes on where it stopped, as far as its script keeps what it has
-# rendered. What another build rendered is removed first, except converged pictures: build/truth holds them by what they
-# depend on. Last, the texts take over the new figures (quote.py).
+# rendered. What another build rendered is removed first, except converged pictures, which are kept by what they depend
+# on, in build/truth, and those of an ordinary run in tests/fidelity/truths. A page that takes twice its minutes is
+# stopped. Last, the texts take over the new figures (quote.py), and a table tells how long each page took.
 set -eu
 cd "$(dirname "$0")/../.."
-build=${BUILD:-build} size=${FIGURES:-whole} python=${PYTHON:-/usr/bin/python3}
-case $size in whole | small) ;; *)
-    echo "figures: FIGURES is whole or small, not $size" >&2
-    exit 2
-    ;;
-esac
+build=${BUILD:-build} full=${FULL:-} python=${PYTHON:-/usr/bin/python3}
 pages=${PAGES:-$(sed -n 's/^\([a-z-]*\) |.*/\1/p' tests/figures/pages.txt)}
 work=$build/figures
 mkdir -p "$work"
 
+column() { echo "$row" | cut -d '|' -f "$1" | sed 's/^ *//; s/ *$//'; } # NUMBER: of the page's row
+
 # What the figures are of: the programs themselves.
 programs() { cat "$build"/bin/retex-* | sha256sum | cut -c1-16; }
 made_by=$(programs)
+key="$made_by${full:+ full}"
+if [ "$(cat "$work/key" 2>/dev/null)" != "$key" ]; then
+    kept=$(grep -v '^#' tests/figures/pages.txt | cut -d '|' -f 5)
+    # shellcheck disable=SC2086 # patterns wanted
+    (cd "$build" && rm -rf $kept)
+    rm -f "$work"/*
+    echo "$key" >"$work/key"
+fi
 status=0
 for page in $pages; do
     row=$(grep "^$page |" tests/figures/pages.txt) || {
         echo "figures: there is no page $page; see tests/figures/pages.txt" >&2
         exit 2
     }
-    target=$(echo "$row" | cut -d '|' -f 2 | tr -d ' ')
-    less='' flags="PAGES=$page"
-    [ "$size" = whole ] || {
-        less=$(echo "$row" | cut -d '|' -f 4-)
-        flags="$flags FIGURES=small"
-    }
-    key="$made_by $size"
-    if [ "$(cat "$work/$page" 2>/dev/null)" = "$key" ]; then
+    target=$(column 2) minutes=$(column 3) less=$(column 6) flags="PAGES=$page" truths=tests/fidelity/truths
+    if [ -n "$full" ]; then less='' flags="$flags FULL=1" minutes=100000 truths=''; fi
+    if [ -e "$work/$page.done" ]; then
         echo "figures: docs/$page.md is of this build"
         continue
     fi
-    if [ "$(cat "$work/$page.begun" 2>/dev/null)" != "$key" ]; then
-        # shellcheck disable=SC2086,SC2046 # patterns wanted
-        (cd "$build" && rm -rf $(echo "$row" | cut -d '|' -f 3))
-        echo "$key" >"$work/$page.begun"
-    fi
-    echo "figures: docs/$page.md" >&2
+    echo "figures: docs/$page.md, $minutes minutes" >&2
+    begun=$(date +%s) ended=0
     # shellcheck disable=SC2086 # the table quotes its words
-    if eval env -u MAKEFLAGS -u MFLAGS $less FIGURES_COMMAND='"make figures $flags"' BENCH_DOCS=1 make BUILD="$build" "$target" \
-        >"$work/$page.log" 2>&1; then
-        [ "$(programs)" = "$made_by" ] || {
-            echo "figures: the programs were built anew while docs/$page.md was made: it is of no single build" >&2
-            exit 1
-        }
-        echo "$key" >"$work/$page"
-    else
+    eval timeout "$((2 * minutes))m" env -u MAKEFLAGS -u MFLAGS $less FIGURES_COMMAND='"make figures $flags"' \
+        FIGURES_TRUTHS="$truths" BENCH_DOCS=1 make BUILD="$build" "$target" >"$work/$page.log" 2>&1 || ended=$?
+    took=$(awk -v s=$(($(date +%s) - begun)) 'BEGIN { printf "%.1f", s / 60 }')
+    if [ "$(programs)" != "$made_by" ]; then
+        echo "figures: the programs were built anew while docs/$page.md was made: it is of no single build" >&2
+        exit 1
+    fi
+    case $ended in
+    0) echo "$took" >"$work/$page.done" ;;
+    124)
+        echo "figures: $page was stopped after twice its $minutes minutes; see $work/$page.log" >&2
+        status=1
+        ;;
+    *)
         echo "figures: $page failed; see $work/$page.log" >&2
         status=1
-    fi
+        ;;
+    esac
+    echo "$page $minutes $took $ended" >>"$work/times"
 done
 "$python" tests/figures/quote.py --update
+echo 'figures: page, minutes of pages.txt, minutes taken, exit status'
+cat "$work/times" 2>/dev/null || :
 exit $status

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Scenes of one feature each, exported by the add-on for Blender: their regions are those of Cycles' picture, or it is told
-# what is left out. The table is that of docs/blender.md.
+# what is left out. docs/blender-features.md has the table.
 set -u
 . tests/lib/tap.sh
 if ! command -v blender >/dev/null; then

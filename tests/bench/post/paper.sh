@@ -61,6 +61,9 @@ for scene in $scenes; do
         # shellcheck disable=SC2086
         rendered "$name-strict.exr" $chosen --layout paper --strict-paper --no-denoise-data
         stored strict "$name-strict.exr"
+        oiiotool --nosoftwareattrib -a "$name-strict.exr" -d half --compression zip -o "$work/half.exr"
+        stored strict-half "$work/half.exr"
+        rm "$work/half.exr"
         retextured "$name-strict.exr" "$work/exr.exr"
         for quality in $qualities; do
             "$python" $here/coded.py "$name-strict.exr" "$work/coded.exr" jpeg "$quality" >"$work/sizes.json"

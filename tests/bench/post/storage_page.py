@@ -1,4 +1,4 @@
-"""The page of make bench-storage: storage_page.py RECORDS OUT.csv HEAD SIZE SPP
+"""The page of make bench-storage: storage_page.py RECORDS OUT.csv HEAD SIZE SPP TRUTH-SPP
 
 Prints what storage.sh measured as Markdown, and writes the figures as CSV.
 """
@@ -22,15 +22,15 @@ INTRODUCTION = """# Size of stored sets, and what they lose
 {head}
 [storage.csv](storage.csv) has the same figures.
 
-A set can be stored without loss or with loss. The sets here have {size} pixels
-and {spp} samples, and are denoised unless stated otherwise. Every
+A set can be stored without loss or with loss. The sets here are of parts, {size} pixels, of pictures of
+512x384, as in [fidelity.md](fidelity.md), with {spp} samples, and are denoised unless stated otherwise. Every
 stored form is read again and retextured with {textures}. They are laid on the scenes' targets
 as `make fidelity` does.
 
 - *PSNR* compares these pictures with those of the original set (retex-diff: sRGB-encoded, clipped). The tables
   have the mean of the textures and the worst one.
-- *Loss against truth* is the PSNR of the set's pictures against converged pictures minus that of the stored
-  form's pictures, where there are converged pictures.
+- *Loss against truth* is the PSNR of the set's pictures against converged pictures, two of {truth_spp} samples each whose
+  noise does not count, minus that of the stored form's pictures.
 - For sets as rendered, two columns are shares of the noise, for the worst of the textures. The noise is the
   mean squared error of the set's pictures against converged ones. *adds* is the increase of that error by
   storing. *moves* is the mean squared difference from the set's pictures. If a pack removes noise, it moves,
@@ -117,11 +117,11 @@ def rendered(rows, pixels):
         print(f"| {row['scene']} | {row['layout']} | {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
 
 
-def main(records, table, head, size, spp):
+def main(records, table, head, size, spp, truth_spp):
     found = read(records)
     pixels = int(size.partition("x")[0]) * int(size.partition("x")[2])
     textures = max((len(r) for r in found.values()), default=0)
-    print(INTRODUCTION.format(head=head, size=size, spp=spp,
+    print(INTRODUCTION.format(head=head, size=size, spp=spp, truth_spp=truth_spp,
                               textures=f"{textures} textures" if textures > 1 else "one texture"), end="")
     rows = [figures(key, of, pixels) for key, of in found.items()]
     with open(table, "w", encoding="ascii", newline="") as file:

@@ -1,4 +1,4 @@
-"""The table of `make fidelity-denoise` as Markdown, and its pictures: denoise-report.py WORK HEAD SIZE TRUTH-SPP NOTES >MD
+"""The table of `make fidelity-denoise` as Markdown, and its pictures: denoise-report.py WORK HEAD PART TRUTH-SPP NOTES TRIED
 
 Reads WORK/denoise.csv and writes WORK/pictures/denoise-SCENE.jpg. NOTES is a file of Markdown, put where the rival is
 compared, if it is there: what figures do not say.
@@ -25,7 +25,7 @@ class Table:
     """Figures by scene, texture, region, method, samples and seed."""
 
     def __init__(self, path):
-        self.psnr, self.flip, self.scenes, self.textures, self.seeds = {}, {}, [], [], {}
+        self.psnr, self.flip, self.interval, self.scenes, self.textures, self.seeds = {}, {}, {}, [], [], {}
         with open(path, encoding="ascii") as file:
             for row in csv.DictReader(file):
                 kind = row["method"], int(row["samples"])
@@ -33,6 +33,7 @@ class Table:
                 if key in self.psnr:
                     pictures.fail(f"{path} has {key} twice")
                 self.psnr[key] = float(row["psnr"])
+                self.interval[key] = float(row["gain_interval"])
                 if row["flip"]:
                     self.flip[key] = float(row["flip"])
                 for name, names in ((row["scene"], self.scenes), (row["texture"], self.textures),
@@ -62,6 +63,14 @@ class Table:
 
     def gain(self, kind, over, **which):
         return mean(self.gains(kind, over, **which))
+
+    def around(self, kind):
+        """The mean gain over the set of 128 samples with its interval: textures of one scene share their paths."""
+        by_scene = {}
+        for (scene, _), half in self.values(kind, seed=self.seeds[kind][0], of=self.interval).items():
+            by_scene.setdefault(scene, []).append(half)
+        half = np.sqrt(sum(sum(halves) ** 2 for halves in by_scene.values())) / sum(map(len, by_scene.values()))
+        return f"{signed(self.gain(kind, SET))} ± {half:.2f}"
 
 
 def mean(values):
@@ -132,7 +141,8 @@ def summary(t):
     for method, samples, label in LABELS:
         kind = method, samples
         if kind in t.seeds:
-            rows.append([label, plain(t.mean(kind))] + [signed(t.gain(kind, over)) for over in (SET, AGAIN, MORE)] +
+            rows.append([label, plain(t.mean(kind))] + [t.around(kind)] +
+                        [signed(t.gain(kind, over)) for over in (AGAIN, MORE)] +
                         [f"{t.mean(kind, of=t.flip):.4f}"])
     table(["picture", "PSNR", "over the set, 128", "over again, 128", "over again, 512", "FLIP"], rows)
 
@@ -185,7 +195,7 @@ def strip(work, scene, texture):
     truth = pictures.encoded(pictures.colours(f"{work}/truth/{scene}-{texture}.exr"))
     gap = np.ones((truth.shape[0], 4, 3))
     above, below = [truth], [np.array(regions.FALSE_COLOURS)[regions.of_scene(work, scene)]]
-    for folder, end in (("retextured", "128-footprints-seed1"), ("retextured", "128-denoised-seed1"), ("again", "512"),
+    for folder, end in (("retextured", "128-footprints"), ("retextured", "128-denoised"), ("again", "512"),
                         ("again", "128-rival")):
         picture = pictures.encoded(pictures.colours(f"{work}/{folder}/{scene}-{texture}-{end}.exr", truth.shape[:2]))
         above += [gap, picture]
@@ -203,12 +213,13 @@ def copy(text):
             print(file.read())
 
 
-def main(work, head, size, truth_samples, notes, tried):
+def main(work, head, part, truth_samples, notes, tried):
     t = Table(f"{work}/denoise.csv")
     print(f"""# Denoised sets compared with rendering again
 
-The figures are PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP, against converged pictures
-of {truth_samples} samples, {size}. The rows are:
+The figures are PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP, against converged pictures,
+two of {truth_samples} samples each. Pictures are parts, {part} pixels, of pictures of 512x384. The noise of the converged
+pictures does not count for PSNR, but does for FLIP. The rows are:
 
 - `set`: a set, layout footprints, retextured;
 - `denoised`: the same after `retex-denoise`;
@@ -217,8 +228,8 @@ of {truth_samples} samples, {size}. The rows are:
   each texture anew, and sees the texture only with its noise.
 
 Sets of 128 samples have {len(t.seeds[SET])} seeds, everything else has one. Means are over all scenes, textures and seeds.
-Scenes and textures are those of [fidelity.md](fidelity.md). The converged pictures have a little noise too: they make
-gains at 1024 samples look smaller than they are. [denoise.csv](denoise.csv) has all figures.
+Scenes and textures are those of [fidelity.md](fidelity.md). After ± is half of an interval of 95 %, over places in the
+picture. [denoise.csv](denoise.csv) has all figures.
 {head}""")
     asked(t)
     print("## Means")

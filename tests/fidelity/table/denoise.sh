@@ -2,46 +2,26 @@
 # How much denoising a set gains: retextures of sets as rendered and denoised, against the scene rendered again, with
 # four times as many samples too, and rendered again and denoised by the same filter, its fair rival.
 #
-#   make fidelity-denoise    some hours on two cores, into $BUILD/fidelity-denoise; with BENCH_DOCS=1 page, figures and
-#                            pictures go to docs/ and docs/pictures/ too
+#   make fidelity-denoise    into $BUILD/fidelity; with BENCH_DOCS=1 page, figures and pictures go to docs/ and
+#                            docs/pictures/ too
 #
-# Seven scenes times eight textures, as in run.sh, but what denoising can do depends on how many pixels an edge or a
-# shadow has: so these are parts, 144x112 pixels, of pictures of 512x384. Sets of layout footprints at 128 samples have
-# five seeds; all else, and 1024 samples and layout paper, has one. The figures are PSNR of the whole picture and of its regions
-# (regions.py), and FLIP. Everything is kept in $BUILD/fidelity-denoise and not made twice: what is there from an
-# earlier run, or was copied there, counts. DENOISE_FRESH=1 makes anew what the filter has touched.
+# Seven scenes times eight textures: the pictures, sets and truths of run.sh, and more. Sets of layout footprints at 128
+# samples have seeds 1, 2 and so on; all else, and 1024 samples and layout paper, has one. The figures are PSNR of the whole
+# picture and of its regions (regions.py), and FLIP. What is in $BUILD/fidelity from an earlier run counts, and is not
+# made twice. DENOISE_FRESH=1 makes anew what the filter has touched.
 #
-# DENOISE_SCENES, DENOISE_SIZE (of whole pictures), DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more.
-# DENOISE_FLAGS are options of retex-denoise for sets, to try them out; the rival does not have them.
+# FIDELITY_SCENES, FIDELITY_PART, FIDELITY_TRUTH_SPP and DENOISE_SEEDS choose less, or more. DENOISE_FLAGS are options of
+# retex-denoise for sets, to try them out; the rival does not have them.
 set -eu
 . tests/fidelity/table/lib.sh
-size=${DENOISE_SIZE:-512x384} truth_spp=${DENOISE_TRUTH_SPP:-4096} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
-scenes=${DENOISE_SCENES:-$all_scenes}
+scenes=${FIDELITY_SCENES:-$all_scenes} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
 few=128 more=512 many=1024 # samples: of what is compared, four times as many, and where there is little noise
 guide_spp=256              # of the light that regions are found from
-work=$build/fidelity-denoise
-figures_python fidelity-denoise
-# The part of a scene's picture.
-view() {
-    echo "--size $size"
-    [ -z "${DENOISE_SIZE:-}" ] || return 0
-    case $1 in
-    glass-caustics) echo '--crop 120,160,144,112' ;; # ball, caustic, brass, mirror
-    kitchen) echo '--crop 120,200,144,112' ;;        # cabinets, island, sun on the floor
-    globe) echo '--crop 230,130,144,112' ;;          # globe, rings, mirror, steel ball
-    glossy-pair) echo '--crop 190,190,144,112' ;;    # both panels, ball
-    horizon) echo '--crop 200,170,144,112' ;;        # cone, mirror ball, shadow
-    *) echo '--crop 160,160,144,112' ;;              # boxes and shadow; sofa, table with glass, rug
-    esac
-}
-
-mkdir -p "$work/truth" "$work/guides" "$work/again" "$work/sets" "$work/retextured" "$work/scores"
-
-settings="$size $truth_spp"
-figures_settings fidelity-denoise "$work" "$settings"
+parts_of_pictures fidelity-denoise
+mkdir -p "$work/guides" "$work/scores"
 if [ -n "${DENOISE_FRESH:-}" ]; then
     for scene in $scenes; do
-        rm -f "$work/sets/$scene"-*denoised-seed*.exr "$work/retextured/$scene"-*denoised-seed*.exr \
+        rm -f "$work/sets/$scene"-*denoised*.exr "$work/retextured/$scene"-*denoised*.exr \
             "$work/again/$scene"-*-rival.exr
     done
 fi
@@ -93,27 +73,29 @@ run() { # SCENE
     # shellcheck disable=SC2086
     {
         guides "$place"
-        truth "$place" "$truth_spp" $textures
+        truths "$place" "$truth_spp" $textures
         rendered "$place" "$work/again" "-$few" "$few" 1 $textures
         rendered "$place" "$work/again" "-$more" "$more" 1 $textures
         for picture in $textures; do rival "$place" "$few" "$picture"; done
     } >&2
-    echo "again $few 1 again -$few"
-    echo "again $more 1 again -$more"
-    echo "rival $few 1 again -$few-rival"
     for count in $few $many; do
         for number_of_seed in $seeds; do
             [ "$count" = "$few" ] || [ "$number_of_seed" = "${seeds%% *}" ] || continue
-            make_set "$place" "$count" "footprints-seed$number_of_seed"
-            denoised_set "$place" "$count" "footprints-seed$number_of_seed" "denoised-seed$number_of_seed"
-            scored "$place" "$count" set "$number_of_seed" "footprints-seed$number_of_seed"
-            scored "$place" "$count" denoised "$number_of_seed" "denoised-seed$number_of_seed"
+            suffix=-seed$number_of_seed
+            [ "$number_of_seed" != 1 ] || suffix=''
+            make_set "$place" "$count" "footprints$suffix"
+            denoised_set "$place" "$count" "footprints$suffix" "denoised$suffix"
+            scored "$place" "$count" set "$number_of_seed" "footprints$suffix"
+            scored "$place" "$count" denoised "$number_of_seed" "denoised$suffix"
         done
     done
-    make_set "$place" "$few" paper-seed1
-    denoised_set "$place" "$few" paper-seed1 paper-denoised-seed1
-    scored "$place" "$few" paper 1 paper-seed1
-    scored "$place" "$few" paper-denoised 1 paper-denoised-seed1
+    make_set "$place" "$few" paper
+    denoised_set "$place" "$few" paper paper-denoised
+    scored "$place" "$few" paper 1 paper
+    scored "$place" "$few" paper-denoised 1 paper-denoised
+    echo "again $few 1 again -$few"
+    echo "again $more 1 again -$more"
+    echo "rival $few 1 again -$few-rival"
 }
 
 tables=
@@ -127,9 +109,7 @@ for each in $scenes; do
 done
 # shellcheck disable=SC2086
 awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
-shown="parts of 144x112 pixels of pictures of $size"
-[ -z "${DENOISE_SIZE:-}" ] || shown="$size pixels"
-"$python" "$here/table/denoise-report.py" "$work" "$(figures_head fidelity-denoise)" "$shown" "$truth_spp" \
+"$python" "$here/table/denoise-report.py" "$work" "$(figures_head fidelity-denoise)" "$part" "$truth_spp" \
     "$here/table/denoise-notes.md" "$here/table/denoise-tried.md" \
     >"$work/denoise.new"
 mv "$work/denoise.new" "$work/denoise.md"

@@ -1,8 +1,7 @@
 """Maps of finishes, as Markdown: finish-maps.py WORK HEAD SETTINGS SCENES FLOORS >MD; or --textures WORK
 
-Also writes WORK/finish-maps-FLOOR.jpg: a picture from a set above its new render. PSNR is of sRGB-encoded colours,
-clipped to 0..1. The squared error of a picture X against the truth is the mean of (X - A)(X - B), A and B being two
-converged pictures whose noise has nothing in common: so their noise does not count.
+Also writes WORK/finish-maps-FLOOR.jpg: a picture from a set above its new render. Errors are those
+of pictures.squares.
 """
 import sys
 
@@ -51,26 +50,17 @@ def write_textures(work):
 
 # ---- the figures ----
 
-def products(path, truths):
-    x = pictures.encoded(pictures.colours(path, truths[0].shape[:2]))
-    return ((x - truths[0]) * (x - truths[1])).mean(axis=2)
-
-
-def psnr(mean):
-    return -10 * np.log10(max(mean, 1e-12))
-
-
 def score(work, scene, floor):
     """By region: the errors of the set and of the render of its own, their difference, and the expected error."""
     name = f"{work}/{scene}-{floor}"
-    truths = [pictures.encoded(pictures.colours(f"{name}-truth-{k}.exr")) for k in (1, 2)]
+    truth = f"{work}/truth/maps-{scene}-{floor}.exr"
     masks = [pictures.parts(f"{name}-mask-{k}.exr")["albedo"] for k in (1, 2)]
     seen = np.abs(masks[0] - masks[1]).max(axis=2) > 0.5
-    errors = {kind: products(f"{name}-{kind}.exr", truths) for kind in ("set", "own")}
+    errors = {kind: pictures.squares(f"{name}-{kind}.exr", truth) for kind in ("set", "own")}
     ours, own = (pictures.colours(f"{name}-{kind}.exr") for kind in ("set", "own"))
     expected = pictures.colours(f"{name}-error.exr")
     for region, pixels in (("floor", seen), ("rest", ~seen)):
-        yield (region, pixels.mean(), psnr(errors["own"][pixels].mean()), psnr(errors["set"][pixels].mean()),
+        yield (region, pixels.mean(), pictures.decibels(errors["own"][pixels].mean()), pictures.decibels(errors["set"][pixels].mean()),
                np.sqrt(((ours - own)[pixels] ** 2).mean()), np.sqrt((expected[pixels] ** 2).mean()))
 
 

@@ -29,19 +29,18 @@ for scene in $scenes; do
     for floor in $floors; do
         name=$work/$scene-$floor
         room() {
-            retex-render -q --threads 1 --size "$(wide "$scene" "$height")" --finish Floor="$(finishes "$floor")" \
-                -t Floor "scenes/$scene/$scene.pov" "$@"
+            retex-render -q --threads 1 --finish Floor="$(finishes "$floor")" -t Floor "scenes/$scene/$scene.pov" "$@"
         }
+        small() { room --size "$(wide "$scene" "$height")" "$@"; }
         laid() { room --replace:finish="$work/$floor-map.png" Floor="$work/$floor.png" "$@"; }
         echo "fidelity-maps: $scene, $floor" >&2
-        made "$name.exr" room --spp "$spp" --seed 1
+        made "$name.exr" small --spp "$spp" --seed 1
         made "$name-set.exr" retex-combine -q "$name.exr" --texture:finish="$work/$floor-map.png" \
             Floor="$work/$floor.png" --error "$name-error.exr"
-        made "$name-own.exr" laid --spp "$spp" --seed 1
-        made "$name-truth-1.exr" laid --spp "$truth_spp" --seed 1001
-        made "$name-truth-2.exr" laid --spp "$truth_spp" --seed 1002
-        made "$name-mask-1.exr" room --replace Floor=white --spp 1 --aov albedo
-        made "$name-mask-2.exr" room --replace Floor=black --spp 1 --aov albedo
+        made "$name-own.exr" laid --size "$(wide "$scene" "$height")" --spp "$spp" --seed 1
+        truth "maps-$scene-$floor" "$(wide "$scene" "$height")" "$truth_spp" laid
+        made "$name-mask-1.exr" small --replace Floor=white --spp 1 --aov albedo
+        made "$name-mask-2.exr" small --replace Floor=black --spp 1 --aov albedo
     done
 done
 

@@ -1,8 +1,7 @@
 """Finishes chosen after rendering, as Markdown: finishes.py WORK HEAD SETTINGS SCENES FINISHES >MD
 
 Also writes WORK/finishes.csv, and WORK/finishes-room.jpg: each finish of the living room above its new render.
-PSNR is of sRGB-encoded colours, clipped to 0..1. The squared error of a picture X against the truth is the mean of
-(X - A)(X - B), A and B being two converged pictures whose noise has nothing in common: so their noise does not count.
+Errors are those of pictures.squares.
 """
 import csv
 import sys
@@ -13,15 +12,6 @@ import pictures
 
 METHODS = ("own", "set", "denoised")
 COSTS = ("none", "three", "six")
-
-
-def squares(path, truths):
-    x = pictures.encoded(pictures.colours(path, truths[0].shape[:2]))
-    return ((x - truths[0]) * (x - truths[1])).mean()
-
-
-def psnr(mean):
-    return -10 * np.log10(max(mean, 1e-12))
 
 
 def numbers(path):
@@ -39,8 +29,8 @@ def score(work, scenes, finishes):
     for scene in scenes:
         for finish in finishes:
             name = f"{work}/{scene}-{finish}"
-            truths = [pictures.encoded(pictures.colours(f"{name}-truth-{k}.exr")) for k in (1, 2)]
-            rows.append((scene, finish, {m: squares(f"{name}-{m}.exr", truths) for m in METHODS},
+            truth = f"{work}/truth/finishes-{scene}-{finish}.exr"
+            rows.append((scene, finish, {m: pictures.squares(f"{name}-{m}.exr", truth).mean() for m in METHODS},
                          seconds(f"{name}-own-time")))
     return rows
 
@@ -83,7 +73,7 @@ def write_csv(work, rows, gains, sizes):
         out.writerow(("subject", "name", "figure", "value"))
         for scene, finish, found, _ in rows:
             for method in METHODS:
-                out.writerow((scene, finish, f"psnr {method}", f"{psnr(found[method]):.3f}"))
+                out.writerow((scene, finish, f"psnr {method}", f"{pictures.decibels(found[method]):.3f}"))
         for scene, gain in gains.items():
             out.writerow((scene, "all", "equal error", f"{gain:.2f}"))
         for kind in COSTS:
@@ -132,7 +122,7 @@ alone, `set`: one set of all four, each with {spp} samples a pixel; `denoised`: 
 | scene | floor | own | set | set over own | denoised |
 |---|---|---|---|---|---|""")
     for scene, finish, found, _ in rows:
-        own, one, clean = (psnr(found[m]) for m in METHODS)
+        own, one, clean = (pictures.decibels(found[m]) for m in METHODS)
         print(f"| {scene} | {finish} | {own:.2f} | {one:.2f} | {one - own:+.2f} | {clean:.2f} |")
     print("""
 Directions are drawn from the mixture of all finishes, so each has fewer samples where it reflects narrowly: a mirror

@@ -24,7 +24,6 @@ figures_settings fidelity-finishes "$work" "$settings"
 # ---- one set against renders of their own ----
 
 for scene in $scenes; do
-    room() { retex-render -q --threads 1 --size "$(wide "$scene" "$height")" "scenes/$scene/$scene.pov" "$@"; }
     echo "fidelity-finishes: $scene" >&2
     [ -e "$work/$scene.exr" ] || {
         timed "$work/$scene-time" retex-render -q --threads 1 --size "$(wide "$scene" "$height")" --spp "$spp" --seed 1 \
@@ -33,8 +32,8 @@ for scene in $scenes; do
     }
     for finish in $(echo $floors | tr ',' ' '); do
         name=$work/$scene-$finish
-        made "$name-truth-1.exr" room --finish Floor="$finish" --plain --spp "$truth_spp" --seed 1001
-        made "$name-truth-2.exr" room --finish Floor="$finish" --plain --spp "$truth_spp" --seed 1002
+        truth "finishes-$scene-$finish" "$(wide "$scene" "$height")" "$truth_spp" \
+            retex-render -q --finish Floor="$finish" --plain "scenes/$scene/$scene.pov"
         made "$name-set.exr" retex-combine -q "$work/$scene.exr" --finish Floor="$finish"
         made "$name-denoised.exr" retex-combine -q "$work/$scene-denoised.exr" --finish Floor="$finish"
         [ -e "$name-own.exr" ] || {

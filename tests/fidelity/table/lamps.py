@@ -2,8 +2,7 @@
 
 Also writes WORK/lamps.csv, WORK/lamps-NAME.jpg: each edit of the living room beside its new render, and
 WORK/lamps-hours.jpg.
-PSNR is of sRGB-encoded colours, clipped to 0..1. The squared error of a picture X against the truth is the mean of
-(X - A)(X - B), A and B being two converged pictures whose noise has nothing in common: so their noise does not count.
+Errors are those of pictures.squares.
 """
 import csv
 import os
@@ -16,15 +15,6 @@ import pictures
 METHODS = ("again", "set", "denoised")
 BLOCK = 16
 GOOD = 10 ** -5.5  # blocks below this squared error, before and after, are left out
-
-
-def squares(path, truths):
-    x = pictures.encoded(pictures.colours(path, truths[0].shape[:2]))
-    return ((x - truths[0]) * (x - truths[1])).mean(axis=2)
-
-
-def psnr(mean):
-    return -10 * np.log10(max(mean, 1e-12))
 
 
 def blocks(image):
@@ -70,9 +60,9 @@ def shorter(statement):
 def score(work):
     rows = []
     for scene, name, lamps, textures in edits():
-        truths = [pictures.encoded(pictures.colours(f"{work}/{scene}-{name}-truth-{k}.exr")) for k in (1, 2)]
-        found = {method: squares(f"{work}/{scene}-{name}-{method}.exr", truths) for method in METHODS}
-        rows.append((scene, name, lamps, textures, {m: psnr(found[m].mean()) for m in METHODS},
+        truth = f"{work}/truth/lamps-{scene}-{name}.exr"
+        found = {method: pictures.squares(f"{work}/{scene}-{name}-{method}.exr", truth) for method in METHODS}
+        rows.append((scene, name, lamps, textures, {m: pictures.decibels(found[m].mean()) for m in METHODS},
                      worst_block(found["set"], found["denoised"])))
     return rows
 

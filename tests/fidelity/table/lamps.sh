@@ -5,7 +5,7 @@
 #                           its pictures go to docs/ and docs/pictures/ too
 #
 # lamps.txt has the edits. Each is made from one set a scene, as rendered and denoised, and rendered again with as many
-# samples. Two converged pictures of each, with noise of their own, are the truth. Then the living room with four, eight
+# samples. Then the living room with four, eight
 # and sixteen lamps, kept apart and not. lamps.py computes the figures. What is there from an earlier run is not made
 # again.
 #
@@ -35,13 +35,12 @@ options() {
 
 # Lamps are options already, textures are statements: both for retex-render and for retex-combine.
 edit() { # WORK-NAME SCENE LAMPS TEXTURES
-    name=$work/$1 scene=$2 file=scenes/$2/$2.pov size_of="--size $(wide "$2" "$height")"
+    name=$work/$1 scene=$2 file=scenes/$2/$2.pov size_of=$(wide "$2" "$height")
     # shellcheck disable=SC2046,SC2086 # words wanted
     {
-        again="retex-render -q $size_of --plain $3 $(options --replace $4) $file"
-        made "$name-again.exr" $again --spp "$spp" --seed 1
-        made "$name-truth-1.exr" $again --spp "$truth_spp" --seed 1001
-        made "$name-truth-2.exr" $again --spp "$truth_spp" --seed 1002
+        again="retex-render -q --plain $3 $(options --replace $4) $file"
+        made "$name-again.exr" $again --size "$size_of" --spp "$spp" --seed 1
+        truth "lamps-$1" "$size_of" "$truth_spp" $again
         for set in set denoised; do
             made "$name-$set.exr" retex-combine -q "$work/$scene-$set.exr" $3 $(options --texture $4)
         done

@@ -1,7 +1,7 @@
 # shellcheck shell=sh
 # shellcheck disable=SC2034,SC2154 # who sources it uses the former and gives the latter
-# What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are $size pixels,
-# or the part of so large a picture that view says, and are not made again where they are there.
+# What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are what view says,
+# and are not made again where they are there.
 . tests/figures/head.sh
 build=${BUILD:-build} here=tests/fidelity
 all_scenes='cornell-box glass-caustics living-room kitchen globe glossy-pair horizon'
@@ -43,7 +43,19 @@ targets_of() {
     esac
 }
 
-view() { echo "--size $size"; } # SCENE
+# What retex-render is told of a picture's size: a part of $part pixels of 512x384, where there is most to see. A table
+# with a size of its own has a view of its own.
+view() { # SCENE
+    case $1 in
+    glass-caustics) set -- 192 216 ;; # ball, caustic, brass, mirror
+    kitchen) set -- 192 256 ;;        # cabinets, island, sun on the floor
+    globe) set -- 302 186 ;;          # globe, rings, mirror, steel ball
+    glossy-pair) set -- 262 246 ;;    # both panels, ball
+    horizon) set -- 215 195 ;;        # horizon, columns, cone, mirror ball
+    *) set -- 232 216 ;;              # boxes and shadow; sofa, table with glass, rug
+    esac
+    echo "--size 512x384 --crop $(($1 - ${part%x*} / 2)),$(($2 - ${part#*x} / 2)),${part%x*},${part#*x}"
+}
 
 target_flags() { for target in $(targets_of "$1"); do printf ' -t %s' "$target"; done; }
 
@@ -86,13 +98,39 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
         --variants "$work/batch-$scene.csv" "$(scene_file "$scene")"
 }
 
-# Converged pictures: $work/truth/SCENE-TEXTURE.exr, links into $build/truth, where they outlive builds. A name there has
-# a digest of the view, the samples and the pixels of a small picture of the same textures. Whatever changes pictures,
-# in renderer, scene or texture, changes the small picture too, and the truth is rendered again.
-truth() { # SCENE SPP TEXTURE…
+# ---- converged pictures ----
+
+# A truth is made of two converged pictures (truth.py) and is a link in $work/truth to a file that outlives builds, in
+# $build/truth or, of small ones, in $here/truths. The name there has a digest of the view, the samples and the pixels of a
+# small picture of the same textures: what changes pictures, in renderer, scene or texture, changes the small picture
+# too, and the truth is rendered again.
+truth_file() { # NAME SMALL-PICTURE WORD…: where that of this small picture is, or is to be
+    key=$({
+        name=$1 small=$2
+        shift 2
+        echo "$@"
+        oiiotool --hash "$small" | grep SHA-1
+    } | sha256sum | cut -c1-16)
+    [ -e "$here/truths/$1-$key.exr" ] && echo "$PWD/$here/truths/$1-$key.exr" && return
+    mkdir -p "$build/truth"
+    echo "$(cd "$build" && pwd)/truth/$1-$key.exr"
+}
+# With FIGURES_TRUTHS, as make figures has it, a new one replaces that of the same name in $here/truths.
+keep_truth() { # NAME A.exr B.exr FILE
+    "${python:-/usr/bin/python3}" -B $here/table/truth.py "$2" "$3" "$4.part.exr"
+    mv "$4.part.exr" "$4"
+    rm "$2" "$3"
+    [ -n "${FIGURES_TRUTHS:-}" ] || return 0
+    rm -f "$here/truths/$1"-????????????????.exr
+    mv "$4" "$here/truths/"
+    ln -sfn "$PWD/$here/truths/${4##*/}" "$work/truth/$1.exr"
+}
+
+# Of a scene under several textures, rendered along the same paths: $work/truth/SCENE-TEXTURE.exr.
+truths() { # SCENE SPP TEXTURE…
     scene=$1 spp=$2
     shift 2
-    mkdir -p "$work/key" "$work/truth" "$build/truth"
+    mkdir -p "$work/key" "$work/truth"
     for texture; do rm -f "$work/key/$scene-$texture.exr"; done
     (
         view() { echo '--size 24x16'; }
@@ -100,21 +138,36 @@ truth() { # SCENE SPP TEXTURE…
     )
     for texture; do
         shift
-        key=$({
-            echo "$(view "$scene") $spp"
-            oiiotool --hash "$work/key/$scene-$texture.exr" | grep SHA-1
-        } | sha256sum | cut -c1-16)
-        kept=$PWD/$build/truth/$scene-$texture-$key.exr
-        case $build in /*) kept=$build/truth/$scene-$texture-$key.exr ;; esac
+        kept=$(truth_file "$scene-$texture" "$work/key/$scene-$texture.exr" "$(view "$scene") $spp")
         ln -sfn "$kept" "$work/truth/$scene-$texture.exr"
         [ -e "$kept" ] || set -- "$@" "$texture"
     done
     [ $# -gt 0 ] || return 0
     rm -rf "$work/truth.new"
     mkdir "$work/truth.new"
-    rendered "$scene" "$work/truth.new" '' "$spp" 1000 "$@"
-    for texture; do mv "$work/truth.new/$scene-$texture.exr" "$(readlink "$work/truth/$scene-$texture.exr")"; done
+    rendered "$scene" "$work/truth.new" -1 "$spp" 1000 "$@"
+    rendered "$scene" "$work/truth.new" -2 "$spp" 2000 "$@"
+    for texture; do
+        keep_truth "$scene-$texture" "$work/truth.new/$scene-$texture-1.exr" "$work/truth.new/$scene-$texture-2.exr" \
+            "$(readlink "$work/truth/$scene-$texture.exr")"
+    done
     rmdir "$work/truth.new"
+}
+
+# Of one picture, which a command renders that takes --size, --spp, --seed and -o: $work/truth/NAME.exr.
+truth() { # NAME SIZE SPP COMMAND…
+    truth_name=$1 truth_view="--size $2 --spp $3"
+    shift 3
+    mkdir -p "$work/key" "$work/truth"
+    "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$truth_name.exr"
+    kept=$(truth_file "$truth_name" "$work/key/$truth_name.exr" "$truth_view")
+    ln -sfn "$kept" "$work/truth/$truth_name.exr"
+    [ ! -e "$kept" ] || return 0
+    for number in 1 2; do
+        # shellcheck disable=SC2086 # words wanted
+        "$@" $truth_view --seed "${number}000" -o "$work/key/$truth_name-$number.exr"
+    done
+    keep_truth "$truth_name" "$work/key/$truth_name-1.exr" "$work/key/$truth_name-2.exr" "$kept"
 }
 
 # A set of layout footprints, footprints-8 or paper: $work/sets/SCENE-SPP-NAME.exr, of seed 1, or of another that ends
@@ -149,4 +202,13 @@ retextured() { # SCENE SPP METHOD TEXTURE…
         ;;
     esac
     retex-combine -q "$@"
+}
+
+# For tables that share the pictures of $build/fidelity: the folder, its settings and what is in it.
+parts_of_pictures() { # NAME: of the make target
+    figures_python "$1"
+    part=${FIDELITY_PART:-144x112} truth_spp=${FIDELITY_TRUTH_SPP:-4096}
+    work=$build/fidelity
+    mkdir -p "$work/truth" "$work/again" "$work/sets" "$work/retextured"
+    figures_settings "$1" "$work" "$part $truth_spp"
 }

@@ -1,8 +1,7 @@
 """Normal maps, as Markdown: normal-maps.py WORK HEAD SETTINGS SURFACES MAPS >MD; or --textures WORK
 
-Also writes WORK/normal-maps-MAP.jpg: a picture from a set above its new render. PSNR is of sRGB-encoded colours, clipped
-to 0..1. The squared error of a picture X against the truth is the mean of (X - A)(X - B), A and B being two converged
-pictures whose noise has nothing in common: so their noise does not count.
+Also writes WORK/normal-maps-MAP.jpg: a picture from a set above its new render. Errors are those of
+pictures.squares.
 """
 import sys
 
@@ -42,26 +41,17 @@ def write_textures(work):
 
 # ---- the figures ----
 
-def products(path, truths):
-    x = pictures.encoded(pictures.colours(path, truths[0].shape[:2]))
-    return ((x - truths[0]) * (x - truths[1])).mean(axis=2)
-
-
-def psnr(mean):
-    return -10 * np.log10(max(mean, 1e-12))
-
-
 def score(work, surface, normal_map):
     """Of pixels that see the surface: errors of the picture of its own, of the set, and of the set without the map; how
     far the former two differ, and how far they are expected to."""
     base, name = f"{work}/{surface}", f"{work}/{surface}-{normal_map}"
-    truths = [pictures.encoded(pictures.colours(f"{name}-truth-{k}.exr")) for k in (1, 2)]
+    truth = f"{work}/truth/normals-{surface.replace('=', '-')}-{normal_map}.exr"
     masks = [pictures.parts(f"{base}-mask-{k}.exr")["albedo"] for k in (1, 2)]
     seen = np.abs(masks[0] - masks[1]).max(axis=2) > 0.5
-    errors = [products(path, truths) for path in (f"{name}-own.exr", f"{name}-set.exr", f"{base}-flat.exr")]
+    errors = [pictures.squares(path, truth) for path in (f"{name}-own.exr", f"{name}-set.exr", f"{base}-flat.exr")]
     ours, own = (pictures.colours(f"{name}-{kind}.exr") for kind in ("set", "own"))
     expected = pictures.colours(f"{name}-error.exr")
-    return ([psnr(error[seen].mean()) for error in errors] +
+    return ([pictures.decibels(error[seen].mean()) for error in errors] +
             [np.sqrt(((ours - own)[seen] ** 2).mean()), np.sqrt((expected[seen] ** 2).mean())])
 
 

@@ -26,21 +26,20 @@ figures_settings fidelity-normals "$work" "$settings"
 for surface in $surfaces; do
     target=${surface%=*} finish=${surface#*=} name=$work/$surface
     room() {
-        retex-render -q --threads 1 --size "$(wide living-room "$height")" --finish "$surface,normals" -t "$target" \
-            "$scene" "$@"
+        retex-render -q --threads 1 --finish "$surface,normals" -t "$target" "$scene" "$@"
     }
-    made "$name.exr" room --spp "$spp" --seed 1
+    small() { room --size "$(wide living-room "$height")" "$@"; }
+    made "$name.exr" small --spp "$spp" --seed 1
     made "$name-flat.exr" retex-combine -q "$name.exr" --texture "$target=$work/tiles.png"
-    made "$name-mask-1.exr" room --replace "$target=white" --spp 1 --aov albedo
-    made "$name-mask-2.exr" room --replace "$target=black" --spp 1 --aov albedo
+    made "$name-mask-1.exr" small --replace "$target=white" --spp 1 --aov albedo
+    made "$name-mask-2.exr" small --replace "$target=black" --spp 1 --aov albedo
     for map in $maps; do
         laid() { room --replace:normal="$work/$map-map.png" "$target=$work/tiles.png" "$@"; }
         echo "fidelity-normals: $target, $finish, $map" >&2
         made "$name-$map-set.exr" retex-combine -q "$name.exr" --texture:normal="$work/$map-map.png" \
             "$target=$work/tiles.png" --error "$name-$map-error.exr"
-        made "$name-$map-own.exr" laid --spp "$spp" --seed 1
-        made "$name-$map-truth-1.exr" laid --spp "$truth_spp" --seed 1001
-        made "$name-$map-truth-2.exr" laid --spp "$truth_spp" --seed 1002
+        made "$name-$map-own.exr" laid --size "$(wide living-room "$height")" --spp "$spp" --seed 1
+        truth "normals-$target-$finish-$map" "$(wide living-room "$height")" "$truth_spp" laid
     done
 done
 

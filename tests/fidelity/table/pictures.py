@@ -47,6 +47,47 @@ def encoded(picture):
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
 
 
+def decoded(picture):
+    """What has these sRGB-encoded values."""
+    return np.where(picture <= 0.04045, picture / 12.92, ((picture + 0.055) / 1.055) ** 2.4)
+
+
+def squares(path, truth):
+    """By pixel, the squared error of a picture against a file of truth.py, whose noise is taken out of the mean."""
+    found = parts(truth)
+    if "noise" not in found:
+        fail(f"{truth} has no part noise: truth.py makes such files")
+    real = encoded(found[""][..., :3])
+    return ((encoded(colours(path, real.shape[:2])) - real) ** 2).mean(axis=2) - found["noise"][..., 0] ** 2
+
+
+def decibels(square):
+    """PSNR of a mean squared error, at most 120."""
+    return -10 * np.log10(max(square, 1e-12))
+
+
+TILE = 8  # pixels a side
+
+
+def tiles(image, mask=None):
+    """Sums over tiles of the picture, of pixels in the mask."""
+    image = image if mask is None else np.where(mask, image, 0)
+    height, width = image.shape
+    image = np.pad(image, ((0, -height % TILE), (0, -width % TILE)))
+    return image.reshape(image.shape[0] // TILE, TILE, -1, TILE).sum(axis=(1, 3)).ravel()
+
+
+def gain(made, other, mask=None):
+    """By how many dB the first squares are less than the others, and its 95 % interval: half its width.
+
+    The interval is the jackknife's over tiles: what another place in the picture, or another seed, would have given."""
+    a, b = tiles(made, mask), tiles(other, mask)
+    whole = decibels(a.sum()) - decibels(b.sum())
+    less = [decibels(max(a.sum() - x, 1e-12)) - decibels(max(b.sum() - y, 1e-12)) for x, y in zip(a, b) if x or y]
+    n = len(less)
+    return whole, 1.96 * np.sqrt((n - 1) / n * np.sum((np.array(less) - np.mean(less)) ** 2)) if n > 1 else 0.0
+
+
 def write(path, picture, *attributes):
     """Values of 0..1 as 8 bits."""
     pixels = np.ascontiguousarray(np.clip(picture * 255 + 0.5, 0, 255).astype(np.uint8))

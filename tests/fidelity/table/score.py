@@ -1,8 +1,9 @@
 """How far the pictures of a scene are from their truths: score.py WORK SCENE TEXTURE... <LIST >CSV
 
 LIST has a line for each kind of picture: method, samples, seed, the folder in WORK, and what the names of its files
-have after scene and texture. FLIP and the PSNR of the whole picture are retex-diff's; the PSNR of regions is taken
-here, by the same definition, which is checked against retex-diff's. WORK/regions/SCENE.png shows the regions.
+have after scene and texture. The last column is half the interval of 95 % of the gain over the first line's picture
+(pictures.gain). FLIP is retex-diff's; squared errors are pictures.squares, whose definition is checked against
+retex-diff's PSNR. WORK/regions/SCENE.png shows the regions.
 """
 import json
 import os
@@ -15,11 +16,6 @@ import pictures
 import regions
 
 LEAST = 60  # pixels of a region that counts
-
-
-def psnr(square):
-    mean = square.mean()
-    return min(120, -10 * np.log10(mean)) if mean > 0 else 120
 
 
 def measured(path, truth):
@@ -40,19 +36,21 @@ def main(work, scene, *textures):
     kinds = [line.split() for line in sys.stdin]
     if not kinds or not textures or any(len(kind) != 5 for kind in kinds):
         pictures.fail("score.py wants textures, and lines of method, samples, seed, folder and end of name")
-    print("scene,texture,region,method,samples,seed,psnr,flip")
+    print("scene,texture,region,method,samples,seed,psnr,flip,gain_interval")
     for texture in textures:
-        truth_path = f"{work}/truth/{scene}-{texture}.exr"
-        truth = pictures.encoded(pictures.colours(truth_path, found.shape))
+        truth, first = f"{work}/truth/{scene}-{texture}.exr", None
+        noise = (pictures.parts(truth)["noise"] ** 2).mean()
         for method, samples, seed, folder, end in kinds:
             path = f"{work}/{folder}/{scene}-{texture}{end}.exr"
-            square = (pictures.encoded(pictures.colours(path, found.shape)) - truth) ** 2
-            whole, flip = measured(path, truth_path)
-            if abs(psnr(square) - whole) > 0.01:
-                pictures.fail(f"{path}: PSNR {psnr(square):.4f} here, {whole:.4f} by retex-diff")
-            print(f"{scene},{texture},all,{method},{samples},{seed},{whole:.3f},{flip:.5f}")
-            for name, mask in masks.items():
-                print(f"{scene},{texture},{name},{method},{samples},{seed},{psnr(square[mask]):.3f},")
+            square = pictures.squares(path, truth)
+            first = square if first is None else first
+            whole, flip = measured(path, truth)
+            if abs(pictures.decibels(square.mean() + noise) - whole) > 0.01:
+                pictures.fail(f"{path}: PSNR {pictures.decibels(square.mean() + noise):.4f} here, {whole:.4f} by retex-diff")
+            for name, mask in {"all": np.full(found.shape, True), **masks}.items():
+                interval = pictures.gain(square, first, mask)[1]
+                print(f"{scene},{texture},{name},{method},{samples},{seed},{pictures.decibels(square[mask].mean()):.3f},"
+                      f"{f'{flip:.5f}' if name == 'all' else ''},{interval:.3f}")
 
 
 main(*sys.argv[1:])
