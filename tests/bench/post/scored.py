@@ -24,7 +24,7 @@ def main(truths, folder, sizes, scene, layout, kind, method, level, *textures):
             made, real = (pictures.encoded(pictures.colours(path)) for path in (theirs, ours))
             truth = f"{truths}/{scene}-{texture}.exr"
             record["psnr"] = pictures.decibels(((made - real) ** 2).mean())
-            record["truth"], record["set_truth"] = (pictures.decibels(pictures.squares(path, truth).mean())
+            record["truth"], record["set_truth"] = (pictures.psnr(pictures.squares(path, truth))
                                                     for path in (theirs, ours))
         print(json.dumps(record))
 

@@ -81,12 +81,12 @@ run() { # SCENE
     for count in $few $many; do
         for number_of_seed in $seeds; do
             [ "$count" = "$few" ] || [ "$number_of_seed" = "${seeds%% *}" ] || continue
-            suffix=-seed$number_of_seed
-            [ "$number_of_seed" != 1 ] || suffix=''
-            make_set "$place" "$count" "footprints$suffix"
-            denoised_set "$place" "$count" "footprints$suffix" "denoised$suffix"
-            scored "$place" "$count" set "$number_of_seed" "footprints$suffix"
-            scored "$place" "$count" denoised "$number_of_seed" "denoised$suffix"
+            of_seed=-seed$number_of_seed
+            [ "$number_of_seed" != 1 ] || of_seed=''
+            make_set "$place" "$count" "footprints$of_seed"
+            denoised_set "$place" "$count" "footprints$of_seed" "denoised$of_seed"
+            scored "$place" "$count" set "$number_of_seed" "footprints$of_seed"
+            scored "$place" "$count" denoised "$number_of_seed" "denoised$of_seed"
         done
     done
     make_set "$place" "$few" paper

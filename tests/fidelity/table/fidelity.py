@@ -20,11 +20,11 @@ class Cell:
         truth = f"{work}/truth/{scene}-{texture}.exr"
         again = pictures.squares(f"{work}/again/{scene}-{texture}-{samples}.exr", truth)
         self.scene, self.texture, self.samples = scene, texture, samples
-        self.psnr = {"again": pictures.decibels(again.mean())}
+        self.psnr = {"again": pictures.psnr(again)}
         self.gap = {}
         for method in methods:
             made = pictures.squares(f"{work}/retextured/{scene}-{texture}-{samples}-{method}.exr", truth)
-            self.psnr[method] = pictures.decibels(made.mean())
+            self.psnr[method] = pictures.psnr(made)
             self.gap[method] = pictures.gain(made, again)
 
 

@@ -66,6 +66,12 @@ def decibels(square):
     return -10 * np.log10(max(square, 1e-12))
 
 
+def psnr(square):
+    """Of squared errors of pixels. What is less than their mean is known to is taken for that, for the noise of a truth
+    may leave nothing, or less."""
+    return decibels(max(square.mean(), square.std() / np.sqrt(square.size)))
+
+
 TILE = 8  # pixels a side
 
 
@@ -82,8 +88,13 @@ def gain(made, other, mask=None):
 
     The interval is the jackknife's over tiles: what another place in the picture, or another seed, would have given."""
     a, b = tiles(made, mask), tiles(other, mask)
-    whole = decibels(a.sum()) - decibels(b.sum())
-    less = [decibels(max(a.sum() - x, 1e-12)) - decibels(max(b.sum() - y, 1e-12)) for x, y in zip(a, b) if x or y]
+    least_a, least_b = (np.sqrt(x.size) * x.std() for x in (a, b))
+
+    def over(x, y):
+        return decibels(max(x, least_a)) - decibels(max(y, least_b))
+
+    whole = over(a.sum(), b.sum())
+    less = [over(a.sum() - x, b.sum() - y) for x, y in zip(a, b) if x or y]
     n = len(less)
     return whole, 1.96 * np.sqrt((n - 1) / n * np.sum((np.array(less) - np.mean(less)) ** 2)) if n > 1 else 0.0
 

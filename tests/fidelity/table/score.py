@@ -49,7 +49,7 @@ def main(work, scene, *textures):
                 pictures.fail(f"{path}: PSNR {pictures.decibels(square.mean() + noise):.4f} here, {whole:.4f} by retex-diff")
             for name, mask in {"all": np.full(found.shape, True), **masks}.items():
                 interval = pictures.gain(square, first, mask)[1]
-                print(f"{scene},{texture},{name},{method},{samples},{seed},{pictures.decibels(square[mask].mean()):.3f},"
+                print(f"{scene},{texture},{name},{method},{samples},{seed},{pictures.psnr(square[mask]):.3f},"
                       f"{f'{flip:.5f}' if name == 'all' else ''},{interval:.3f}")
 
 
