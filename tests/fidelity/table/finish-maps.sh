@@ -9,12 +9,12 @@
 # own, are the truth. finish-maps.py makes the textures and computes the figures. What is there from an earlier run is
 # not made again.
 #
-# MAPS_SPP, MAPS_TRUTH_SPP, MAPS_HEIGHT and MAPS_PICTURE_HEIGHT choose less, or more.
+# MAPS_SPP, MAPS_TRUTH_SPP, MAPS_HEIGHT, MAPS_PICTURE_HEIGHT and MAPS_PICTURE_SPP choose less, or more.
 set -eu
 . tests/fidelity/table/lib.sh
 work=$build/fidelity-maps
 spp=${MAPS_SPP:-128} truth_spp=${MAPS_TRUTH_SPP:-2048} height=${MAPS_HEIGHT:-96}
-picture_height=${MAPS_PICTURE_HEIGHT:-270}
+picture_height=${MAPS_PICTURE_HEIGHT:-270} picture_spp=${MAPS_PICTURE_SPP:-256}
 scenes='living-room kitchen' floors='planks inlay'
 figures_python fidelity-maps
 mkdir -p "$work"
@@ -52,7 +52,7 @@ for floor in $floors; do
     made "$work/picture-$floor.exr" room --spp 64 --denoise
     made "$work/picture-$floor-ours.exr" retex-combine -q "$work/picture-$floor.exr" \
         --texture:finish="$work/$floor-map.png" Floor="$work/$floor.png"
-    made "$work/picture-$floor-new.exr" room --spp 256 --replace:finish="$work/$floor-map.png" Floor="$work/$floor.png"
+    made "$work/picture-$floor-new.exr" room --spp "$picture_spp" --replace:finish="$work/$floor-map.png" Floor="$work/$floor.png"
 done
 
 "$python" "$here/table/finish-maps.py" "$work" "$(figures_head fidelity-maps)" "$settings" "$scenes" "$floors" \

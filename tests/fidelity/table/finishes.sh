@@ -8,13 +8,13 @@
 # with noise of their own, are the truth. Then sets of the living room without finishes, with three, and with six
 # combinations. finishes.py computes the figures. What is there from an earlier run is not made again.
 #
-# FINISHES_SPP, FINISHES_TRUTH_SPP, FINISHES_HEIGHT, FINISHES_PICTURE_HEIGHT, FINISHES_SIZE and FINISHES_SIZE_SPP choose
+# FINISHES_SPP, FINISHES_TRUTH_SPP, FINISHES_HEIGHT, FINISHES_PICTURE_HEIGHT, FINISHES_PICTURE_SPP, FINISHES_SIZE and FINISHES_SIZE_SPP choose
 # less, or more.
 set -eu
 . tests/fidelity/table/lib.sh
 work=$build/fidelity-finishes
 spp=${FINISHES_SPP:-128} truth_spp=${FINISHES_TRUTH_SPP:-2048} height=${FINISHES_HEIGHT:-96}
-picture_height=${FINISHES_PICTURE_HEIGHT:-270} size=${FINISHES_SIZE:-960x540} size_spp=${FINISHES_SIZE_SPP:-64}
+picture_height=${FINISHES_PICTURE_HEIGHT:-270} picture_spp=${FINISHES_PICTURE_SPP:-256} size=${FINISHES_SIZE:-960x540} size_spp=${FINISHES_SIZE_SPP:-64}
 scenes='living-room kitchen' floors='original,satin,polished,metal' walls='original,satin'
 figures_python fidelity-finishes
 mkdir -p "$work"
@@ -50,7 +50,7 @@ made "$work/room.exr" room --finish Floor=$floors --finish Wall=original -t Floo
 for finish in original satin polished metal; do
     made "$work/picture-$finish-ours.exr" retex-combine -q "$work/room.exr" --finish Floor=$finish \
         --texture Floor=scenes/textures/walnut-herringbone.jpg
-    made "$work/picture-$finish-new.exr" room --finish Floor=$finish --plain --spp 256 \
+    made "$work/picture-$finish-new.exr" room --finish Floor=$finish --plain --spp "$picture_spp" \
         --replace Floor=scenes/textures/walnut-herringbone.jpg
 done
 

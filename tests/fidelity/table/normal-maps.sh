@@ -9,12 +9,12 @@
 # is rendered by --replace with the same seed. Two converged pictures of it, with noise of their own, are the truth.
 # normal-maps.py makes the textures and computes the figures. What is there from an earlier run is not made again.
 #
-# NORMALS_SPP, NORMALS_TRUTH_SPP, NORMALS_HEIGHT and NORMALS_PICTURE_HEIGHT choose less, or more.
+# NORMALS_SPP, NORMALS_TRUTH_SPP, NORMALS_HEIGHT, NORMALS_PICTURE_HEIGHT and NORMALS_PICTURE_SPP choose less, or more.
 set -eu
 . tests/fidelity/table/lib.sh
 work=$build/fidelity-normals
 spp=${NORMALS_SPP:-128} truth_spp=${NORMALS_TRUTH_SPP:-2048} height=${NORMALS_HEIGHT:-96}
-picture_height=${NORMALS_PICTURE_HEIGHT:-270}
+picture_height=${NORMALS_PICTURE_HEIGHT:-270} picture_spp=${NORMALS_PICTURE_SPP:-256}
 scene=scenes/living-room/living-room.pov surfaces='Wall=original Floor=matt Floor=polished' maps='tiles waves'
 figures_python fidelity-normals
 mkdir -p "$work"
@@ -50,7 +50,7 @@ made "$work/picture.exr" room --spp 64 --denoise
 for map in $maps; do
     made "$work/picture-$map-ours.exr" retex-combine -q "$work/picture.exr" --texture:normal="$work/$map-map.png" \
         Wall="$work/tiles.png"
-    made "$work/picture-$map-new.exr" room --spp 256 --replace:normal="$work/$map-map.png" Wall="$work/tiles.png"
+    made "$work/picture-$map-new.exr" room --spp "$picture_spp" --replace:normal="$work/$map-map.png" Wall="$work/tiles.png"
 done
 
 "$python" "$here/table/normal-maps.py" "$work" "$(figures_head fidelity-normals)" "$settings" "$surfaces" "$maps" \
