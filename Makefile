@@ -9,6 +9,7 @@
 #   make check-update CASE=golden/NAME   update a golden reference, printing the change
 #   make asan, tsan   run the unit and command-line tests with the sanitizers
 #   make fuzz         run mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
+#   make fuzz-guided  the same guided by coverage, with clang; make fuzz-coverage: what of parsers they reach
 #   make bench        print ratios of speed: kernels against references, sets against plain renders
 #   make bench-render speed and error of rendering, compared with Cycles and with Embree's rays alone; docs/speed.md
 #   make bench-overhead   time of sets over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md

@@ -45,7 +45,7 @@ $(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/common/json.o $(BUILD)/obj/tools/common/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS) $(FUZZ_LIBS)
 
 $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
@@ -56,13 +56,16 @@ $(BUILD)/tests/bin/make_tiffs: private TEST_LIBS += -ltiff
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) \
 	    | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS) $(FUZZ_LIBS)
 
 $(BUILD)/obj/tests/fuzz/fuzz_gltf.o: RENDER_CFLAGS += $(IMPORT_CFLAGS)
 $(BUILD)/tests/fuzz/fuzz_gltf: $(BUILD)/obj/tests/fuzz/fuzz_gltf.o $(FUZZ_OBJECTS) $(IMPORT_OBJECTS) $(TOOL_OBJECTS) \
 	    $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS) $(FUZZ_LIBS)
+$(BUILD)/tests/fuzz/fuzz_upload: TEST_LIBS += $(SERVE_LIBS)
+$(BUILD)/tests/fuzz/fuzz_upload: $(TOOL_OBJECTS) $(patsubst %,$(BUILD)/obj/tools/%.o,studio/received serve/answer/answer \
+	serve/request/name serve/files/uploads serve/files/decoding serve/files/kept serve/files/names serve/files/content)
 # It runs the tools, and has models from Assimp.
 $(BUILD)/tests/fuzz/fuzz_import: TEST_LIBS += -lassimp
 $(BUILD)/tests/fuzz/fuzz_import: | $(addprefix $(BUILD)/bin/,retex-import retex-render)
@@ -101,7 +104,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 .PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
-	asan tsan bench fuzz fuzz-programs sanitized-fuzz
+	asan tsan bench fuzz fuzz-guided fuzz-coverage fuzz-programs sanitized-fuzz guided-fuzz guided-programs
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) $(BUILD)/tests/web/player.js all
 tests: test-programs $(FAULTS) unit-tests fuzz-programs $(BUILD)/tests/bench/bench
@@ -151,7 +154,23 @@ fuzz: sanitized-fuzz
 	@BUILD=$(BUILD)/asan KEEP=$(BUILD)/fuzz tests/fuzz/run.sh $(FUZZ_SECONDS) '$(FUZZ_SEED)' $(FUZZ)
 sanitized-fuzz: | $(BUILD)/test.mk
 	$(MAKE) $(ADDRESS_SANITIZED) fuzz-programs
-fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS) $(BUILD)/lib/libretex.so
+# The same drivers guided by coverage, by clang's libFuzzer, from the corpora of tests/fuzz/corpus on.
+GUIDED_SANITIZED = BUILD=$(BUILD)/guided CC=clang CXX=clang++ $(call SANITIZED,address$(comma)undefined$(comma)fuzzer-no-link \
+	-fno-sanitize-recover=undefined) FUZZ_LIBS="-Wl,-u,LLVMFuzzerRunDriver $$(clang -print-file-name=libclang_rt.fuzzer_no_main-$$(uname -m).a) -lstdc++ -fsanitize-link-c++-runtime"
+# With all that it takes minutes to compile vector code for several processors.
+ifneq ($(FUZZ_LIBS),)
+$(BUILD)/obj/%_kernel.o: private override CFLAGS += -fno-sanitize=all
+endif
+fuzz-guided: guided-fuzz
+	@BUILD=$(BUILD)/guided KEEP=$(BUILD)/fuzz tests/fuzz/guided.sh $(FUZZ_SECONDS) $(FUZZ)
+guided-fuzz: | $(BUILD)/test.mk
+	@tools/setup.sh guided
+	$(MAKE) $(GUIDED_SANITIZED) guided-programs
+guided-programs: $(filter-out %_import,$(FUZZ_PROGRAMS)) $(BUILD)/tests/bin/make_picture
+# The share of each parser's branches that the corpora reach.
+fuzz-coverage: guided-fuzz
+	@BUILD=$(BUILD)/guided tests/fuzz/coverage.sh $(FUZZ)
+fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS) $(BUILD)/lib/libretex.so $(BUILD)/bin/retex-pack $(BUILD)/tests/web/player.js
 
 bench: $(BUILD)/tests/bench/bench
 	@mkdir -p $(BUILD)/bench

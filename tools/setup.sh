@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`; `setup.sh serve`
 # for retex-serve with nginx and many clients, `setup.sh web` for the player in a browser, `setup.sh cluster` for parts
-# of work on several machines), made into Debian packages (`setup.sh deb`) or compared with POV-Ray (`setup.sh parity`).
+# of work on several machines, `setup.sh guided` for fuzzing guided by coverage), made into Debian packages
+# (`setup.sh deb`) or compared with POV-Ray (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
 # password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1. With --list it
@@ -74,6 +75,11 @@ command dh debhelper
 file /usr/share/perl5/Debian/Debhelper/Sequence/python3.pm dh-python
 file /usr/bin/python3 python3
 "
+needs_guided="
+command clang clang
+command llvm-symbolizer llvm
+runtime libclang_rt.fuzzer_no_main-$(uname -m).a libclang-rt-dev
+"
 needs_web='
 command chromium chromium
 python websocket python3-websocket
@@ -120,6 +126,7 @@ is_present() { # kind what
     embree) [ -n "$(embree)" ] ;;
     python) /usr/bin/python3 -c "import $2" >/dev/null 2>&1 ;;
     file) [ -e "$2" ] ;;
+    runtime) [ -e "$(clang -print-file-name="$2" 2>/dev/null)" ] ;; # of clang
     esac
 }
 
@@ -190,7 +197,7 @@ config() {
 
 case ${1-} in
 config) config ;;
-build | test | deb | parity | serve | web | cluster)
+build | test | deb | parity | serve | web | cluster | guided)
     eval "list=\$needs_$1"
     if [ "${2-}" = --list ]; then
         echo "$list" | awk 'NF { print $3 }' | sort -u
@@ -199,7 +206,7 @@ build | test | deb | parity | serve | web | cluster)
     fi
     ;;
 *)
-    echo "usage: $0 build | test | deb | parity | serve | web | cluster [--list], or $0 config" >&2
+    echo "usage: $0 build | test | deb | parity | serve | web | cluster | guided [--list], or $0 config" >&2
     exit 2
     ;;
 esac

@@ -49,7 +49,7 @@ void split_close(SplitSink *sink);
 static inline void split_start(const SplitSink *sink, SplitPath *path, int k)
 {
     const SplitThroughput one = {color4(rgb_grey(1)), color4(rgb_grey(1))};
-    path->throughput = &sink->throughput[k * sink->ncombinations];
+    path->throughput = sink->throughput ? &sink->throughput[k * sink->ncombinations] : NULL; /* NULL in plain renders */
     for (int c = 0; c < sink->ncombinations; c++)
         path->throughput[c] = one;
     path->counts = TARGET_COUNTS_INIT, path->folded = path->met = 0;

@@ -13,6 +13,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>
 size_t __sanitizer_get_current_allocated_bytes(void); /* gcc has no header of it */
@@ -268,11 +273,12 @@ static int run_all(Fuzz *fuzz)
     return fuzz->nplaces > 0;
 }
 
-int fuzz_main(const FuzzDriver *driver, int argc, char **argv)
+static int run_blind(const FuzzDriver *driver, int argc, char **argv)
 {
     Fuzz *fuzz = calloc(1, sizeof *fuzz);
     size_t size;
     int only = 0;
+    const char *seeds = NULL;
     if (!fuzz)
         die("no memory", "");
     *fuzz = (Fuzz){.driver = driver, .seed = 1, .seconds = 10, .folder = "."};
@@ -282,6 +288,10 @@ int fuzz_main(const FuzzDriver *driver, int argc, char **argv)
         const char *value = i + 1 < argc ? argv[i + 1] : "";
         if (strcmp(argv[i], "--run") == 0) {
             only = 1;
+            continue;
+        }
+        if (strcmp(argv[i], "--seeds") == 0) {
+            seeds = value, i++;
             continue;
         }
         if (strcmp(argv[i], "--seconds") == 0)
@@ -303,7 +313,9 @@ int fuzz_main(const FuzzDriver *driver, int argc, char **argv)
             free(bytes);
         }
     }
-    if (only) {
+    if (seeds)
+        fuzz_write_seeds(seeds);
+    if (only || seeds) {
         free(fuzz);
         return 0;
     }
@@ -314,4 +326,35 @@ int fuzz_main(const FuzzDriver *driver, int argc, char **argv)
     munmap(fuzz->shared, sizeof *fuzz->shared);
     free(fuzz);
     return found;
+}
+
+/* ---- guided by coverage ---- */
+
+/* Of libFuzzer, where the program is linked with it. */
+__attribute__((weak)) int LLVMFuzzerRunDriver(int *argc, char ***argv, int (*run)(const unsigned char *, size_t));
+
+static const FuzzDriver *guided;
+
+static int run_guided(const unsigned char *bytes, size_t size)
+{
+    if (size <= FUZZ_LARGEST)
+        run_input(guided, bytes, size);
+    return 0;
+}
+
+/* Options of libFuzzer begin with one dash: they and folders are its alone. */
+static int is_guided(int argc, char **argv)
+{
+    return LLVMFuzzerRunDriver && argc > 1 && argv[1][0] == '-' && argv[1][1] != '-';
+}
+
+int fuzz_main(const FuzzDriver *driver, int argc, char **argv)
+{
+    if (is_guided(argc, argv)) {
+        guided = driver;
+        if (driver->begin)
+            driver->begin();
+        return LLVMFuzzerRunDriver(&argc, &argv, run_guided);
+    }
+    return run_blind(driver, argc, argv);
 }

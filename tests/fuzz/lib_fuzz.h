@@ -4,6 +4,8 @@
  * A driver is a program:
  *     fuzz_NAME [--seconds N] [--seed N] [--keep FOLDER] [--words FILE]... [SEED-FILE]...
  *     fuzz_NAME --run FILE...      run these inputs only, to look at what was found
+ *     fuzz_NAME --seeds FOLDER [--words FILE]... [SEED-FILE]...    write the seeds there, and words into the file words
+ *     fuzz_NAME -OPTION=VALUE... FOLDER...    with libFuzzer, if it is linked with that: these are its options
  * Input number i of seed s is the same in every run with the same seeds. A finding is a crash, a report of a sanitizer,
  * a leak, an input that takes more than FUZZ_CPU_SECONDS or FUZZ_MEMORY bytes, or an abort() of the driver itself, for
  * what must hold and does not. Findings with the same place in the code are kept once: the input, and its report beside
@@ -31,6 +33,8 @@ int fuzz_main(const FuzzDriver *driver, int argc, char **argv);
 /* For begin: another seed (copied), or words of a text for the tokens to be exchanged with. */
 void fuzz_seed(const void *bytes, size_t size);
 void fuzz_words(const char *text, size_t size);
+
+void fuzz_write_seeds(const char *folder);
 
 /* The mutator: room bytes at out; returns how many it used. Depends on nothing but the seeds, words and *random. */
 size_t fuzz_mutate(unsigned char *out, size_t room, int text, uint64_t *random);

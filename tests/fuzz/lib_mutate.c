@@ -67,6 +67,31 @@ void fuzz_words(const char *text, size_t size)
     }
 }
 
+static FILE *open_seed(const char *folder, size_t number)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/seed-%zu", folder, number);
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        abort();
+    return file;
+}
+
+void fuzz_write_seeds(const char *folder)
+{
+    for (size_t i = 0; i < nseeds; i++) {
+        FILE *file = open_seed(folder, i);
+        fwrite(seeds[i].at, 1, seeds[i].size, file);
+        fclose(file);
+    }
+    FILE *file = fopen("words", "w");
+    for (size_t i = 0; file && i < nwords; i++)
+        if (words[i].size < 60)
+            fprintf(file, "\"%.*s\"\n", (int)words[i].size, (const char *)words[i].at);
+    if (!file || fclose(file))
+        abort();
+}
+
 uint64_t fuzz_next(uint64_t *random)
 {
     uint64_t z = *random += 0x9e3779b97f4a7c15u; /* splitmix64 */

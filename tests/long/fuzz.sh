@@ -6,7 +6,7 @@ set -u
 KEEP=$BUILD/fuzz
 BUILD=$BUILD/asan
 export KEEP BUILD
-for name in edit request ini manifest pack set scene gltf import; do
+for name in edit request ini manifest pack set scene gltf import upload player; do
     if tests/fuzz/run.sh 10 1 $name >"$work/log" 2>&1; then ok=1; else ok=0; fi
     sed 's/^/# /' "$work/log"
     result $ok "$name"
