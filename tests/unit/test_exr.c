@@ -131,13 +131,13 @@ static void write_parts(RetexExrPart *parts, int count, int compress, int thread
     retex_exr_encoding_free(&encoding);
 }
 
-/* By the definition in set.h. */
-static uint32_t expected_crc(const RetexExrPart *part)
+/* By the definition in set.h, of some rows. */
+static uint32_t expected_crc(const RetexExrPart *part, int y0, int y1)
 {
     const RetexImage *im = part->image;
     uint32_t crc = 0;
     for (int c = 0; c < im->channels; c++)
-        for (int i = 0; i < im->width * im->height; i++) {
+        for (int i = im->width * y0; i < im->width * y1; i++) {
             const float value = im->pixels[i * im->channels + c];
             uint16_t half;
             retex_half_from_float_scalar(&half, &value, 1);
@@ -193,7 +193,7 @@ static void test_parts_there_and_back(void **state)
         assert_null(retex_exr_attribute(exr, 0, "channels"));
         assert_int_equal(retex_exr_find_part(exr, "none"), -1);
         for (int i = 0; i < count; i++) {
-            assert_int_equal(parts[i].crc, expected_crc(&parts[i]));
+            assert_int_equal(parts[i].crc, expected_crc(&parts[i], 0, images[i].height));
             check_part(exr, &parts[i], i, threads);
         }
         retex_exr_close(&exr);
@@ -201,6 +201,28 @@ static void test_parts_there_and_back(void **state)
     }
     for (int i = 0; i < PARTS; i++)
         retex_image_free(&images[i]);
+}
+
+/* Bands of 16 rows have checksums of their own, the last one too, which has the rows that are left. */
+static void test_checksums_of_bands(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    RetexExrEncoding *encoding;
+    RetexError err = {0};
+    make_parts(parts, images);
+    test_must(retex_exr_encode(&encoding, parts, PARTS, 1, 2, &err), &err);
+    for (int i = 0; i < PARTS; i++) {
+        uint32_t *crcs = retex_exr_band_crcs(encoding, i);
+        assert_non_null(crcs);
+        for (int y = 0; y < images[i].height; y += 16)
+            assert_int_equal(crcs[y / 16],
+                             expected_crc(&parts[i], y, y + 16 < images[i].height ? y + 16 : images[i].height));
+        free(crcs);
+        retex_image_free(&images[i]);
+    }
+    retex_exr_encoding_free(&encoding);
 }
 
 /* Parts of floats of 24 bits are compressed by PXR24, which other readers know, and read without loss here and by
@@ -575,6 +597,7 @@ int main(void)
         cmocka_unit_test(test_rounding_to_half),
         cmocka_unit_test(test_vector_equals_scalar),
         cmocka_unit_test(test_parts_there_and_back),
+        cmocka_unit_test(test_checksums_of_bands),
         cmocka_unit_test(test_floats_of_24_bits),
         cmocka_unit_test(test_files_are_smaller_when_compressed),
         cmocka_unit_test(test_files_are_equal_for_every_thread_count),
