@@ -1,5 +1,5 @@
-/* The kinds of camera there are. A new kind is a line here, a row of operations (camera/camera.h) and its keyword in
- * sdl/camera/camera.c. */
+/* The kinds of camera there are. A new kind is a line here, and a file with its row of operations (camera/camera.h),
+ * whose name is the keyword. */
 #ifndef RENDERER_CAMERA_CAMERAS_H
 #define RENDERER_CAMERA_CAMERAS_H
 
