@@ -2,8 +2,8 @@
 # Runs fuzz drivers guided by coverage, one after the other: guided.sh SECONDS [NAME…] (of fuzz_NAME.c; by default all
 # but import, which runs other programs). $BUILD holds programs that are linked with libFuzzer. A run begins with the
 # seeds and with corpus/NAME.tar.xz. What reaches new code is kept in $KEEP/corpus/NAME for the next run, and findings in
-# $KEEP. With FUZZ_MINIMIZE=1 the smallest inputs that reach all that was reached take the place of the corpus. Exit 1
-# when something was found.
+# $KEEP. With FUZZ_MINIMIZE=1 the smallest inputs that reach all that was reached take the place of the corpus, but for
+# scene: its inputs are made of other people's scenes too, and stay in $KEEP. Exit 1 when something was found.
 set -u
 seconds=$1 here=$(pwd)
 shift
@@ -34,7 +34,7 @@ for name; do
     }
     echo "fuzz_$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$KEEP/$name.guided") inputs," \
         "$(sed -n 's/^#.*\(cov: [0-9]* ft: [0-9]*\).*/\1/p' "$KEEP/$name.guided" | tail -n 1)"
-    [ "${FUZZ_MINIMIZE-}" = 1 ] || continue
+    [ "${FUZZ_MINIMIZE-}" = 1 ] && [ "$name" != scene ] || continue
     mkdir smallest
     # shellcheck disable=SC2086
     "$program" $limits -merge=1 smallest "$kept" "$known" 2>/dev/null
