@@ -1,26 +1,46 @@
 # retex-import: what becomes of models, compared with a scene that says the same in POV-Ray's words.
-$ /usr/bin/python3 $TESTS/import_models.py && cp $TESTS/import_reference.pov reference.pov && grep '^camera' reference.pov >camera.inc
+$ /usr/bin/python3 $TESTS/import_models.py && cp $TESTS/import_reference.pov reference.pov &&
++     grep '^camera' reference.pov >camera.inc
 $ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
 
 # look MODEL: import it, put the reference's camera into the scene, and render what is seen first.
-$ printf '%s\n' 'retex-import -q "$@" -o scene || exit' 'cat camera.inc >>scene/scene.pov' 'retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr' 'rm -r scene' >look
-$ printf '%s\n' 'for part in albedo depth uv; do retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs; done' >same
+% look() {
+%     retex-import -q "$@" -o scene || return
+%     cat camera.inc >>scene/scene.pov
+%     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr
+%     rm -r scene
+% }
+% same() {
+%     for part in albedo depth uv; do
+%         retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs
+%     done
+% }
 
 # Depth, colour and UV are the reference's: nothing is mirrored, each card is in its place.
-$ for m in card.gltf card.glb second.gltf opaque.gltf words.gltf quantized.gltf quantized.glb card.obj card.dae; do sh look $m && sh same ${m%.*}.exr reference.exr; done
-$ for m in card.stl card.ply; do sh look $m --up z && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 card.exr reference.exr; done
+$ for m in card.gltf card.glb second.gltf opaque.gltf words.gltf quantized.gltf quantized.glb card.obj card.dae; do
++     look $m && same ${m%.*}.exr reference.exr
++ done
+$ for m in card.stl card.ply; do
++     look $m --up z && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 card.exr reference.exr
++ done
 
 # glTF's own camera is the reference's.
-$ retex-import -q card.glb -o own && retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,uv own/own.pov -o own.exr && sh same own.exr reference.exr
+$ retex-import -q card.glb -o own &&
++     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,uv own/own.pov -o own.exr &&
++     same own.exr reference.exr
 
 # So is that of a 3DS file; it is z up there. Names of images may differ in case.
-$ retex-import -q card.3ds -o studio && retex-render -q --plain --spp 1 --size 96x72 --aov depth studio/studio.pov -o studio.exr && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 studio.exr reference.exr
-$ sed 's/F.png/TEXTURES\\f.PNG/' card.mtl >upper.mtl && sed 's/card.mtl/upper.mtl/' card.obj >upper.obj && retex-import -q upper.obj -o upper && grep -c image_map upper/upper.pov
+$ retex-import -q card.3ds -o studio &&
++     retex-render -q --plain --spp 1 --size 96x72 --aov depth studio/studio.pov -o studio.exr &&
++     retex-diff -q --part depth --allow-inf --fail-abs 0.0005 studio.exr reference.exr
+$ sed 's/F.png/TEXTURES\\f.PNG/' card.mtl >upper.mtl && sed 's/card.mtl/upper.mtl/' card.obj >upper.obj &&
++     retex-import -q upper.obj -o upper && grep -c image_map upper/upper.pov
 > 1
 
 # A transform of the texture is one of its UV; a factor of its colours is in a new image.
-$ sh look turned.gltf && sh look turned_uv.gltf && retex-diff -q --part albedo --fail-psnr 35 turned.exr turned_uv.exr
-$ sh look tinted.gltf && sh look tinted_image.gltf && retex-diff -q --part albedo --fail-abs 0.004 tinted.exr tinted_image.exr
+$ look turned.gltf && look turned_uv.gltf && retex-diff -q --part albedo --fail-psnr 35 turned.exr turned_uv.exr
+$ look tinted.gltf && look tinted_image.gltf &&
++     retex-diff -q --part albedo --fail-abs 0.004 tinted.exr tinted_image.exr
 $ retex-diff -q --part albedo --fail-psnr 25 turned.exr card.exr || echo turned
 > turned
 
@@ -74,7 +94,7 @@ $ cat own/own.pov
 $ retex-render --list-targets own/own.pov
 >  34.41%  Mesh_card
 >  34.41%  Wood
-$ ls own own/textures; cmp own/textures/Image.png F.png
+$ ls own own/textures
 > own:
 > own-meshes.inc
 > own.pov
@@ -82,9 +102,10 @@ $ ls own own/textures; cmp own/textures/Image.png F.png
 >
 > own/textures:
 > Image.png
+$ cmp own/textures/Image.png F.png
 
 # The mask cuts: the picture's right half is a hole.
-$ sh look masked.gltf && retex-diff -q --part albedo --fail-psnr 25 masked.exr card.exr || echo a hole
+$ look masked.gltf && retex-diff -q --part albedo --fail-psnr 25 masked.exr card.exr || echo a hole
 > a hole
 
 # Images of roughness and metallic vary over the surface.
@@ -98,17 +119,23 @@ $ retex-import -q varying.gltf -o varying && grep -A8 declare.Steel varying/vary
 >       roughness_map { image_map { png "textures/Image_2_roughness.png" gamma 1 interpolate 2 } } } #end
 >   }
 > }
-$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic varying/varying.pov -o varying.exr && /usr/bin/python3 $TESTS/import_finish.py varying.exr
+$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic varying/varying.pov -o varying.exr &&
++     /usr/bin/python3 $TESTS/import_finish.py varying.exr
 
 # Maps and normals on a second set of UV are what they are on the first.
 $ retex-import -q varying_second.gltf -o second && grep -c second_uv second/second.pov second/second-meshes.inc
 > second/second.pov:2
 > second/second-meshes.inc:1
-$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic second/second.pov -o second.exr && for part in roughness metallic; do retex-diff -q --part $part --fail-abs 0.0005 second.exr varying.exr; done
-$ for m in bumpy bumpy_second; do retex-import -q -f $m.gltf -o bumps && retex-render -q --plain --spp 1 --size 96x72 --aov normal bumps/bumps.pov -o $m.exr; done; retex-diff -q --part normal --fail-abs 0.0005 bumpy.exr bumpy_second.exr
+$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic second/second.pov -o second.exr &&
++     for part in roughness metallic; do retex-diff -q --part $part --fail-abs 0.0005 second.exr varying.exr; done
+$ for m in bumpy bumpy_second; do
++     retex-import -q -f $m.gltf -o bumps &&
++         retex-render -q --plain --spp 1 --size 96x72 --aov normal bumps/bumps.pov -o $m.exr
++ done
+$ retex-diff -q --part normal --fail-abs 0.0005 bumpy.exr bumpy_second.exr
 
 # Colours of vertices multiply an image, as a factor of its colours does.
-$ sh look colored.gltf && retex-diff -q --part albedo --fail-abs 0.01 colored.exr tinted.exr
+$ look colored.gltf && retex-diff -q --part albedo --fail-abs 0.01 colored.exr tinted.exr
 
 # Clear coat and sheen.
 $ retex-import -q coated.gltf -o coated && grep -A9 declare.Silk coated/coated.pov
@@ -124,11 +151,32 @@ $ retex-import -q coated.gltf -o coated && grep -A9 declare.Silk coated/coated.p
 >   }
 
 # Retexturing keeps them: with the original colour it is the plain picture, with another one that of a new render.
-$ for m in coated:Silk colored:Wood second:Steel; do n=${m%:*} t=${m#*:}; [ -d $n ] || retex-import -q $n.gltf -o $n; for o in "--plain -o plain.exr" "-t $t -o set.exr" "--plain --replace $t=rgb(.2,.5,.1) -o again.exr"; do retex-render -q --spp 4 --size 64x48 $n/$n.pov $o; done; retex-combine -q set.exr -o same.exr; retex-combine -q set.exr --texture "$t=rgb(.2,.5,.1)" -o green.exr; retex-diff -q --fail-abs 0.0001 same.exr plain.exr; retex-diff -q --fail-psnr 55 green.exr again.exr; done
+$ for m in coated:Silk colored:Wood second:Steel; do
++     n=${m%:*} t=${m#*:}
++     [ -d $n ] || retex-import -q $n.gltf -o $n
++     for o in "--plain -o plain.exr" "-t $t -o set.exr" "--plain --replace $t=rgb(.2,.5,.1) -o again.exr"; do
++         retex-render -q --spp 4 --size 64x48 $n/$n.pov $o
++     done
++     retex-combine -q set.exr -o same.exr
++     retex-combine -q set.exr --texture "$t=rgb(.2,.5,.1)" -o green.exr
++     retex-diff -q --fail-abs 0.0001 same.exr plain.exr
++     retex-diff -q --fail-psnr 55 green.exr again.exr
++ done
+
+% # The normal in the middle of the picture of the scene `bumpy`.
+% middle_normal() {
+%     cat camera.inc >>bumpy/bumpy.pov
+%     retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr
+%     oiiotool -q bumpy.exr --subimage normal -o bumpy.exr
+%     make_values bumpy.exr 0,0
+% }
 
 # Normal maps: of glTF, with their scale; of OBJ, where the picture tells that it has normals or heights. Heights that
 # rise by 1 over the picture's width, a hundredth of it high, 30 times: a slope of .3.
-$ for m in bumpy.gltf bumpy.obj ramp.obj; do retex-import -q -f $m -o bumpy && grep retex_normal_map bumpy/bumpy.pov; cat camera.inc >>bumpy/bumpy.pov; retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr; oiiotool -q bumpy.exr --subimage normal -o bumpy.exr; make_values bumpy.exr 0,0 | awk '{ printf "%.2f %.2f %.2f\n", $1, $2, $3 }'; done
+$ for m in bumpy.gltf bumpy.obj ramp.obj; do
++     retex-import -q -f $m -o bumpy && grep retex_normal_map bumpy/bumpy.pov
++     middle_normal | awk '{ printf "%.2f %.2f %.2f\n", $1, $2, $3 }'
++ done
 >   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Leaning.png" gamma 1 interpolate 2 } } 0.5 } #end
 > -0.29 -0.15 -0.95
 >   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Leaning.png" gamma 1 interpolate 2 } } } #end
@@ -136,10 +184,13 @@ $ for m in bumpy.gltf bumpy.obj ramp.obj; do retex-import -q -f $m -o bumpy && g
 >   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Ramp_normals.png" gamma 1 interpolate 2 } } } #end
 > -0.29 0.00 -0.96
 
-# Heights in glTF, by extras of the material: white is .3 units high. Numbers rise evenly over the card, which is 1 wide,
-# sRGB by 2.4 / 1.055 ((u + .055) / 1.055)^1.4, at u = .589. Heights grow with the scene. At half the strength, the normal
-# is in the middle between that of the slope and the plain one.
-$ for m in ramp_numbers ramp_colors ramp_weak ramp_none; do retex-import -q -f $m.gltf -o bumpy && grep retex_height_map bumpy/bumpy.pov; cat camera.inc >>bumpy/bumpy.pov; retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr; oiiotool -q bumpy.exr --subimage normal -o bumpy.exr; make_values bumpy.exr 0,0 | awk '{ printf "%.2f %d %.2f\n", $1, ($2^2 > 1e-5), $3 }'; done
+# Heights in glTF, by extras of the material: white is .3 units high. Numbers rise evenly over the card, which is 1
+# wide, sRGB by 2.4 / 1.055 ((u + .055) / 1.055)^1.4, at u = .589. Heights grow with the scene. At half the strength,
+# the normal is in the middle between that of the slope and the plain one.
+$ for m in ramp_numbers ramp_colors ramp_weak ramp_none; do
++     retex-import -q -f $m.gltf -o bumpy && grep retex_height_map bumpy/bumpy.pov
++     middle_normal | awk '{ printf "%.2f %d %.2f\n", $1, ($2^2 > 1e-5), $3 }'
++ done
 >   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" gamma 1 interpolate 2 } } 0.3 strength 1 } #end
 > -0.29 0 -0.96
 >   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" interpolate 2 } } 0.3 strength 1 } #end
@@ -158,7 +209,8 @@ $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.
 >     diffuse 0 emission rgb 4
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote glowing/glowing.pov
-$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 glowing/glowing.pov -o lamp.exr && make_values lamp.exr 0,0
+$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 glowing/glowing.pov -o lamp.exr &&
++     make_values lamp.exr 0,0
 > 4 2 1
 
 # A screen shines with its picture, and is grey.
@@ -183,12 +235,14 @@ $ retex-import names.obj -o names && grep declare names/names.pov
 ! retex-import: 4 materials, 1 mesh, 1 object, 1 triangle
 ! retex-import: wrote names/names.pov
 
-# Missing images are told, and the scene is made without them where that is asked for; files outside of the model's folder
-# are not read.
-$ retex-import below/missing.gltf -o missing; ls -d missing*
+# Missing images are told, and the scene is made without them where that is asked for; files outside of the model's
+# folder are not read.
+$ retex-import below/missing.gltf -o missing
 ! retex-import: warning: there is no image `http://example.org/wood.png`
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: error: below/missing.gltf: 1 image is lost, see above; --partial makes the scene without it
+= 2
+$ ls -d missing*
 ! ls: cannot access 'missing*': No such file or directory
 = 2
 $ retex-import --partial below/missing.gltf -o missing
@@ -196,8 +250,10 @@ $ retex-import --partial below/missing.gltf -o missing
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote missing/missing.pov
-$ retex-import below/out.gltf -o out; ls -d out*
+$ retex-import below/out.gltf -o out
 ! retex-import: error: below/out.gltf: the model names the file `../secret.png`, which is outside of its folder; -I DIR adds folders that may be read
+= 2
+$ ls -d out*
 ! ls: cannot access 'out*': No such file or directory
 = 2
 $ retex-import below/out.gltf -I . -o out && ls out/textures
@@ -220,13 +276,22 @@ $ retex-import -q holes.obj -o holes
 ! retex-import: warning: there is no image `gone.png`
 ! retex-import: error: holes.obj: 1 image is lost, see above; --partial makes the scene without it
 = 2
-$ for m in holes holes_torn; do retex-import -q --partial $m.obj -o $m 2>&1 | grep -c '`.*`'; grep -c image_map $m/$m.pov; done
+$ for m in holes holes_torn; do
++     retex-import -q --partial $m.obj -o $m 2>&1 | grep -c '`.*`'
++     grep -c image_map $m/$m.pov
++ done
 > 1
 > 1
 > 1
 > 1
 # Damaged images are left out.
-$ for m in torn no_image; do retex-import -q --partial $m.gltf -o $m 2>err; echo $?; grep -c 'warning: the image .* cannot be read' err; grep -c image_map $m/$m.pov; ls $m; done
+$ for m in torn no_image; do
++     retex-import -q --partial $m.gltf -o $m 2>err
++     echo $?
++     grep -c 'warning: the image .* cannot be read' err
++     grep -c image_map $m/$m.pov
++     ls $m
++ done
 > 0
 > 1
 > 0
@@ -239,7 +304,10 @@ $ for m in torn no_image; do retex-import -q --partial $m.gltf -o $m 2>err; echo
 > no_image.pov
 
 # Damaged models: one line, and nothing is left.
-$ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj; do retex-import $m -o damaged; echo $?; done; ls -d damaged*
+$ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj; do
++     retex-import $m -o damaged
++     echo $?
++ done
 > 2
 > 2
 > 2
@@ -254,6 +322,7 @@ $ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj;
 ! retex-import: error: cycle.gltf: GLTF: Object at index 0 in array "nodes" has recursive reference to itself
 ! retex-import: error: faces.obj: OBJ: vertex index out of range
 ! retex-import: error: far.obj: its surfaces reach farther than 1e+15
+$ ls -d damaged*
 ! ls: cannot access 'damaged*': No such file or directory
 = 2
 $ retex-import nothing.glb -o damaged
@@ -261,10 +330,13 @@ $ retex-import nothing.glb -o damaged
 = 2
 
 # Too little memory: one line. Which one depends on who notices it first.
-$ retex-import --max-memory 60 large.obj -o little 2>err; echo $?; grep -c max-memory err; wc -l <err; ls -d little*
-> 2
+$ retex-import --max-memory 60 large.obj -o little 2>err
+= 2
+$ grep -c max-memory err
 > 1
+$ wc -l <err
 > 1
+$ ls -d little*
 ! ls: cannot access 'little*': No such file or directory
 = 2
 
@@ -272,7 +344,8 @@ $ retex-import --max-memory 60 large.obj -o little 2>err; echo $?; grep -c max-m
 $ retex-import card.glb -o own
 ! retex-import: error: own exists; --force writes into it
 = 2
-$ echo mine >own/mine.txt; retex-import -q --force card.gltf -o own/ && cat own/mine.txt && head -n 1 own/own.pov && ls -d own*
+$ echo mine >own/mine.txt
+$ retex-import -q --force card.gltf -o own/ && cat own/mine.txt && head -n 1 own/own.pov && ls -d own*
 > mine
 > // Made of card.gltf by retex-import 0.1.0.
 > own
@@ -289,8 +362,10 @@ $ retex-import card.glb -o -
 $ retex-import card.glb -o room.pov
 ! retex-import: error: -o room.pov: expected the name of a folder to make, without .pov: -o room makes room/room.pov
 = 2
-$ retex-import card.glb -f -o rooms/Hall.POV/; ls -d room*
+$ retex-import card.glb -f -o rooms/Hall.POV/
 ! retex-import: error: -o rooms/Hall.POV/: expected the name of a folder to make, without .pov: -o rooms/Hall makes rooms/Hall/Hall.pov
+= 2
+$ ls -d room*
 ! ls: cannot access 'room*': No such file or directory
 = 2
 $ retex-import -o x
@@ -317,10 +392,12 @@ $ retex-import --sky F.png card.glb -o sky && grep sky_sphere sky/sky.pov && ls 
 > sky.png
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote sky/sky.pov
-# Dispersion: n of blue is 1.60825 and of red 1.59175; sheen's roughness by the mean of alpha; a line for what is left out.
-$ retex-import -q prism.gltf -o prism; grep -o 'interior.*' prism/prism.pov; retex-import velvet.gltf -o velvet; grep -o 'sheen.*' velvet/velvet.pov
+# Dispersion: n of blue is 1.60825 and of red 1.59175; sheen's roughness by the mean of alpha; a line for what is left
+# out.
+$ retex-import -q prism.gltf -o prism
+$ grep -o 'interior.*' prism/prism.pov
 > interior { ior 1.6 dispersion 1.0198 }
-> sheen rgb 0.5 sheen_roughness 0.348 } #end
+$ retex-import velvet.gltf -o velvet
 ! retex-import: warning: images of the reflectance are left out
 ! retex-import: warning: the material `velvet`: its iridescence is left out
 ! retex-import: warning: the extension X?[31m is left out
@@ -328,32 +405,48 @@ $ retex-import -q prism.gltf -o prism; grep -o 'interior.*' prism/prism.pov; ret
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote velvet/velvet.pov
+$ grep -o 'sheen.*' velvet/velvet.pov
+> sheen rgb 0.5 sheen_roughness 0.348 } #end
 # Integers that do not lie within their buffer are refused.
-$ retex-import -q beyond.glb -o beyond; ls -d beyond
+$ retex-import -q beyond.glb -o beyond
 ! retex-import: error: beyond.glb: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
+= 2
+$ ls -d beyond
 ! ls: cannot access 'beyond': No such file or directory
 = 2
 # What Assimp would misread is the reference too: sparse accessors, strides of zero or with a point, names that are not
 # UTF-8 or have NULs, NULs behind the text, chunks behind the others. So are the eighth UV and morph targets
 # at weights of the mesh or of its nodes.
-$ for m in sparse_words.gltf sparse.gltf stride_zero.gltf stride_point.gltf latin.gltf nul.gltf padded.glb unaligned.glb chunk_after.glb eighth.gltf morph.gltf morph_nodes.gltf morph_rest.gltf; do sh look $m; sh same ${m%.*}.exr reference.exr; done; for m in morph morph_nodes; do retex-diff -q --part normal --fail-abs 0.0005 $m.exr reference.exr || echo $m leans; done
+$ for m in sparse_words.gltf sparse.gltf stride_zero.gltf stride_point.gltf latin.gltf nul.gltf padded.glb \
++     unaligned.glb chunk_after.glb eighth.gltf morph.gltf morph_nodes.gltf morph_rest.gltf; do
++     look $m
++     same ${m%.*}.exr reference.exr
++ done
+$ for m in morph morph_nodes; do
++     retex-diff -q --part normal --fail-abs 0.0005 $m.exr reference.exr || echo $m leans
++ done
 # What cannot be read ends in one line.
-$ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_between.glb chunk_before.glb; do retex-import $m -o odd; done; ls -d odd*
+$ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_between.glb chunk_before.glb; do
++     retex-import $m -o odd
++ done
 ! retex-import: error: sparse_beyond.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
 ! retex-import: error: stride_huge.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
 ! retex-import: error: longs.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
 ! retex-import: error: comma.gltf: its JSON text: string or '}' expected near '}'
 ! retex-import: error: chunk_between.glb: GLTF: Buffer view with offset/length (80/12) is out of range.
 ! retex-import: error: chunk_before.glb: No suitable reader found for the file format of file "chunk_before.glb".
+= 2
+$ ls -d odd*
 ! ls: cannot access 'odd*': No such file or directory
 = 2
-# Images that an extension names: WebP and AVIF are read, a line tells of those of KTX2 that are used and have no other in
-# their place. What is lost is not told without end.
+# Images that an extension names: WebP and AVIF are read, a line tells of those of KTX2 that are used and have no
+# other in their place. What is lost is not told without end.
 $ for m in ktx webp; do retex-import -q --partial $m.gltf -o $m; grep -c image_map $m/$m.pov; done
 > 0
 > 1
 ! retex-import: warning: the image `wood.ktx2` of the material `wood` is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
-$ sh look avif.gltf; retex-diff -q --part albedo --fail-abs 0.02 avif.exr reference.exr
+$ look avif.gltf
+$ retex-diff -q --part albedo --fail-abs 0.02 avif.exr reference.exr
 $ retex-import -q --safe avif.gltf -o odd
 ! retex-import: warning: the image `F.avif` cannot be read: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-import: error: avif.gltf: 1 image is lost, see above; --partial makes the scene without it
@@ -367,7 +460,9 @@ $ retex-import -q gone.gltf -o odd 2>&1 | tail -n 3
 > retex-import: warning: there is no image `gone 15.png`
 > retex-import: warning: 4 more images are lost
 > retex-import: error: gone.gltf: 20 images are lost, see above; --partial makes the scene without them
-$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov albedo webp/webp.pov -o red.exr && oiiotool -q red.exr --subimage albedo -o red.exr && make_values red.exr 0,0 | awk '{ print ($1 > .9 && $2 < .05 && $3 < .05) }'
+$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov albedo webp/webp.pov -o red.exr &&
++     oiiotool -q red.exr --subimage albedo -o red.exr && make_values red.exr 0,0 |
++     awk '{ print ($1 > .9 && $2 < .05 && $3 < .05) }'
 > 1
 # UV that are not there, and a third set of them: a line each.
 $ for m in ninth lacking without three; do retex-import -q $m.gltf -o uv_$m; done
@@ -377,6 +472,7 @@ $ for m in ninth lacking without three; do retex-import -q $m.gltf -o uv_$m; don
 ! retex-import: warning: images of emission with a third set of UV are left out
 ! retex-import: warning: normal maps with a third set of UV are left out
 # Lights of 3DS, z up: half of the angles of the cones, and the direction of the spot, (0, .6, -.8), as the file has it.
-$ retex-import -q lights.3ds -o lights; grep light_source lights/lights.pov
+$ retex-import -q lights.3ds -o lights
+$ grep light_source lights/lights.pov
 > light_source { <1, 3, 2>, rgb <2, 1, 0.5> }
 > light_source { <-4, 5, 0>, rgb <0.25, 0.5, 1> spotlight radius 15 falloff 25 point_at <-4, 4.2, 0.6> }

@@ -1,10 +1,13 @@
-# retex-import: cameras inside of rooms, their unit, their axis and their light. import_room.py has the models, and judges
-# what a camera sees of them by a ray tracer of its own.
-$ /usr/bin/python3 $TESTS/import_room.py
+# retex-import: cameras inside of rooms, their unit, their axis and their light. import_room.py has the models, and
+# judges what a camera sees of them by a ray tracer of its own.
+% judge() { /usr/bin/python3 $TESTS/import_room.py "$@"; }
+$ judge
 
-# From inside: the eye is 1.5 m above the floor, in free space, and sees furniture; also where the model's unit or axis is
-# another one, all of its faces are turned, or each is there twice.
-$ for m in room room_cm room_in room_z room_mm_z turned doubled back_sides; do retex-import -q $m.obj -o $m && /usr/bin/python3 $TESTS/import_room.py view $m room && /usr/bin/python3 $TESTS/import_room.py bounds $m; done
+# From inside: the eye is 1.5 m above the floor, in free space, and sees furniture; also where the model's unit or
+# axis is another one, all of its faces are turned, or each is there twice.
+$ for m in room room_cm room_in room_z room_mm_z turned doubled back_sides; do
++     retex-import -q $m.obj -o $m && judge view $m room && judge bounds $m
++ done
 > a view
 > 5 x 2.6 x 4
 > a view
@@ -21,9 +24,11 @@ $ for m in room room_cm room_in room_z room_mm_z turned doubled back_sides; do r
 > 5 x 2.6 x 4
 > a view
 > 5 x 2.6 x 4
-$ retex-import -q ell.obj -o ell && /usr/bin/python3 $TESTS/import_room.py view ell ell
+$ retex-import -q ell.obj -o ell && judge view ell ell
 > a view
-$ for m in dark window glass lamp cm twice; do retex-import -q $m.gltf -o $m && /usr/bin/python3 $TESTS/import_room.py view $m room && /usr/bin/python3 $TESTS/import_room.py bounds $m; done
+$ for m in dark window glass lamp cm twice; do
++     retex-import -q $m.gltf -o $m && judge view $m room && judge bounds $m
++ done
 > a view
 > 5 x 2.6 x 4
 > a view
@@ -50,24 +55,31 @@ $ retex-import -f room_z.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from
 > retex-import: no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
 > retex-import: wrote x/x.pov
-$ retex-import -f doubled.obj -o x 2>&1 | grep ' lie'; retex-import -f twice.gltf -o x 2>&1 | grep 'the same one'; retex-import -f two_panes.gltf -o x 2>&1 | grep ' lie'
+$ retex-import -f doubled.obj -o x 2>&1 | grep ' lie'
 > retex-import: 60 faces lie on others of the same corners: one of each is kept
+$ retex-import -f twice.gltf -o x 2>&1 | grep 'the same one'
 > retex-import: 6 objects are where the same one is: one of each is kept
+$ retex-import -f two_panes.gltf -o x 2>&1 | grep ' lie'
 = 1
-$ retex-import -f room_high.obj -o x 2>&1 | grep high; retex-import -f toy.gltf -o x 2>&1 | grep high
+$ retex-import -f room_high.obj -o x 2>&1 | grep high
 > retex-import: the room is 10.4 units high: its unit is unknown, and lengths stay; --unit ft, if it is feet, makes metres
+$ retex-import -f toy.gltf -o x 2>&1 | grep high
 > retex-import: the room is 7.8 m high and so is its furniture: lengths stay, --scale 0.33 makes it 2.6 m
 # Options say otherwise.
-$ for o in '--unit m' '--unit 2cm' '--scale 2' '--up z' '--unit ft --scale 2'; do retex-import -f -q $o room_cm.obj -o x && /usr/bin/python3 $TESTS/import_room.py bounds x; done
+$ for o in '--unit m' '--unit 2cm' '--scale 2' '--up z' '--unit ft --scale 2'; do
++     retex-import -f -q $o room_cm.obj -o x && judge bounds x
++ done
 > 500 x 260 x 400
 > 10 x 5.2 x 8
 > 1000 x 520 x 800
 > 5 x 4 x 2.6
 > 304.8 x 158.5 x 243.8
-$ for o in '--unit ft' '--up y'; do retex-import -f -q $o room_high.obj -o x && /usr/bin/python3 $TESTS/import_room.py bounds x; done
+$ for o in '--unit ft' '--up y'; do
++     retex-import -f -q $o room_high.obj -o x && judge bounds x
++ done
 > 6.096 x 3.17 x 4.877
 > 20 x 10.4 x 16
-$ retex-import -f -q --up y room_z.obj -o x && /usr/bin/python3 $TESTS/import_room.py bounds x
+$ retex-import -f -q --up y room_z.obj -o x && judge bounds x
 > 5 x 4 x 2.6
 $ retex-import -f --unit '3 miles' room.obj -o x
 ! retex-import: error: --unit: expected a length such as cm, 2.5cm or ft, not '3 miles'
@@ -86,9 +98,12 @@ $ for m in plane solid hull shelves two_walls; do retex-import $m.obj -o $m 2>&1
 $ awk '/^  location/ { gsub(/[<>,]/, ""); print ($2 > 4), ($4 > 0) }' two_walls/two_walls.pov
 > 1 1
 
-# From above into rooms, without walls and ceilings that stand before them: which ones follows from where their fronts are.
-# All else stays.
-$ for m in room room_cm turned thick ell dark twice; do retex-import -f -q --camera cutaway $(ls $m.obj $m.gltf 2>/dev/null) -o x && /usr/bin/python3 $TESTS/import_room.py cut x $(case $m in thick|ell) echo $m;; *) echo room;; esac); done
+# From above into rooms, without walls and ceilings that stand before them: which ones follows from where their fronts
+# are. All else stays.
+$ for m in room.obj room_cm.obj turned.obj thick.obj ell.obj dark.gltf twice.gltf; do
++     case $m in thick.obj | ell.obj) room=${m%.obj} ;; *) room=room ;; esac
++     retex-import -f -q --camera cutaway $m -o x && judge cut x $room
++ done
 > cut
 > cut
 > cut
@@ -102,7 +117,10 @@ $ retex-import -f --camera cutaway dark.gltf -o x 2>&1 | sed 's/from [-0-9.,]* t
 > retex-import: 6 materials, 6 meshes, 6 objects, 54 triangles
 > retex-import: wrote x/x.pov
 # Glass, and meshes that are placed several times, stay or go as a whole.
-$ for m in panes_before panes_behind shared; do retex-import -f -q --camera cutaway $m.gltf -o x; echo $(grep -c '^object.*Pane' x/x.pov) $(grep -c '^object' x/x.pov); done
+$ for m in panes_before panes_behind shared; do
++     retex-import -f -q --camera cutaway $m.gltf -o x
++     echo $(grep -c '^object.*Pane' x/x.pov) $(grep -c '^object' x/x.pov)
++ done
 > 0 6
 > 1 7
 > 0 11
@@ -115,12 +133,15 @@ $ for m in plane solid hull; do retex-import --camera cutaway $m.obj -o y; echo 
 ! retex-import: error: --camera cutaway: hull.obj: there is no room in it
 
 # Cameras of the model come first; words stand for views, and a camera of such a name has its number.
-$ retex-import -f -q camera.gltf -o x && grep '^camera' x/x.pov; retex-import -f -q --camera auto camera.gltf -o x && grep '^camera' x/x.pov; retex-import -f -q --camera 1 camera.gltf -o x && grep '^camera' x/x.pov
+$ retex-import -f -q camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
+$ retex-import -f -q --camera auto camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
+$ retex-import -f -q --camera 1 camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
-$ retex-import -q --camera inside camera.gltf -o inside && /usr/bin/python3 $TESTS/import_room.py view inside room; retex-import -f --camera outside camera.gltf -o x 2>&1 | grep -o 'the view is.*, from'
+$ retex-import -q --camera inside camera.gltf -o inside && judge view inside room
 > a view
+$ retex-import -f --camera outside camera.gltf -o x 2>&1 | grep -o 'the view is.*, from'
 > the view is from outside, from
 $ retex-import -f -q --camera 1,1.5,-2:4,1,-1.5:65 camera.gltf -o x && grep -A5 '^camera' x/x.pov
 > camera {
@@ -132,17 +153,28 @@ $ retex-import -f -q --camera 1,1.5,-2:4,1,-1.5:65 camera.gltf -o x && grep -A5 
 $ retex-import -f -q --camera 1,1.5,-2:4,1,-1.5 camera.gltf -o x && grep angle x/x.pov
 >   angle 44.8272352
 >   angle 70
-$ retex-import --camera 1,1,1:1,1,1 camera.gltf -o y; retex-import --camera 1,1,1:1,1,2:180 camera.gltf -o y; retex-import --camera 1,1:2,2,2 camera.gltf -o y; retex-import --camera inside solid.obj -o y; ls -d y*
+$ retex-import --camera 1,1,1:1,1,1 camera.gltf -o y
 ! retex-import: error: --camera 1,1,1:1,1,1: the camera is where it looks at
+= 2
+$ retex-import --camera 1,1,1:1,1,2:180 camera.gltf -o y
 ! retex-import: error: --camera 1,1,1:1,1,2:180: expected an angle from 1 to 170 degrees
+= 2
+$ retex-import --camera 1,1:2,2,2 camera.gltf -o y
 ! retex-import: error: --camera 1,1:2,2,2: the model has 1 camera, the first is Camera_inside
+= 2
+$ retex-import --camera inside solid.obj -o y
 ! retex-import: error: --camera inside: solid.obj: no place above a floor is free
+= 2
+$ ls -d y*
 ! ls: cannot access 'y*': No such file or directory
 = 2
 
-# Light: a closed room gets a lamp below its ceiling, also where what shines is hidden; one with an opening or a pane the
-# sky; one that has a lamp, nothing.
-$ for m in dark hidden window glass lamp; do retex-import -f $m.gltf -o x 2>&1 | grep -o 'no light.*' || echo none; echo $(grep -c '^sky_sphere' x/x.pov) $(grep -c 'declare Ceiling_light' x/x.pov); done
+# Light: a closed room gets a lamp below its ceiling, also where what shines is hidden; one with an opening or a pane
+# the sky; one that has a lamp, nothing.
+$ for m in dark hidden window glass lamp; do
++     retex-import -f $m.gltf -o x 2>&1 | grep -o 'no light.*' || echo none
++     echo $(grep -c '^sky_sphere' x/x.pov) $(grep -c 'declare Ceiling_light' x/x.pov)
++ done
 > no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > 0 1
 > no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
@@ -153,12 +185,19 @@ $ for m in dark hidden window glass lamp; do retex-import -f $m.gltf -o x 2>&1 |
 > 1 0
 > none
 > 0 0
-$ retex-render -q --spp 16 --size 64x48 dark/dark.pov -t Floor --lamp Ceiling_light -o dark.exr && retex-combine -q --auto-exposure dark.exr -o dark.png && oiiotool --stats dark.png | awk '/Avg/ { print ($3 > 80 && $3 < 180) }'
+$ retex-render -q --spp 16 --size 64x48 dark/dark.pov -t Floor --lamp Ceiling_light -o dark.exr &&
++     retex-combine -q --auto-exposure dark.exr -o dark.png && oiiotool --stats dark.png |
++     awk '/Avg/ { print ($3 > 80 && $3 < 180) }'
 > 1
-$ retex-combine -q dark.exr -o lit.exr && retex-combine -q --light Ceiling_light=0.5 dark.exr -o half.exr && retex-combine -q --light Ceiling_light=0 dark.exr -o off.exr && oiiotool -q lit.exr half.exr --mulc 2 --absdiff -o both.exr && oiiotool --stats both.exr off.exr | awk '/Max/ { print ($3 < .002) }'
+$ retex-combine -q dark.exr -o lit.exr && retex-combine -q --light Ceiling_light=0.5 dark.exr -o half.exr &&
++     retex-combine -q --light Ceiling_light=0 dark.exr -o off.exr &&
++     oiiotool -q lit.exr half.exr --mulc 2 --absdiff -o both.exr && oiiotool --stats both.exr off.exr |
++     awk '/Max/ { print ($3 < .002) }'
 > 1
 > 1
 # Without exposure it is sensible too; the light is below the ceiling of 2.6 m and faces down.
-$ oiiotool --stats lit.exr | awk '/Avg/ { print ($3 > .1 && $3 < .6) }'; grep -A4 'declare Ceiling_light' dark/dark.pov | grep -o 'rotate.*translate.*' | awk '{ print $2, ($5 > 2.5 && $5 < 2.6) }'
+$ oiiotool --stats lit.exr | awk '/Avg/ { print ($3 > .1 && $3 < .6) }'
 > 1
+$ grep -A4 'declare Ceiling_light' dark/dark.pov | grep -o 'rotate.*translate.*' |
++     awk '{ print $2, ($5 > 2.5 && $5 < 2.6) }'
 > 90*x 1

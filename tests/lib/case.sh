@@ -7,7 +7,7 @@
 #     >  a line of its standard output
 #     !  a line of its standard error
 #     =  its exit status, if it is not 0
-#     %  a line of shell functions, for the commands below it
+#     %  a line of shell that all commands below begin with: functions, variables, a folder
 # Empty lines and lines with # are comments. Files of earlier commands remain for later ones. $SCENES is the folder of
 # scenes, $TESTS that of the suite. A block with the command `skip-without COMMAND why` skips the rest of the file if
 # COMMAND is not installed, a block with `skip-unless COMMAND` if COMMAND fails. Programs of suite oiio find the plugins
