@@ -1,6 +1,11 @@
 # retex-import: lights and lenses of glTF files with what extras say of them, against closed forms.
-$ /usr/bin/python3 $TESTS/import_lights.py
-$ for m in shared ball watts spot sun area ellipse away; do retex-import -q $m.gltf -o $m && retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr && /usr/bin/python3 $TESTS/import_lights.py $m $m.exr; done
+% judge() { /usr/bin/python3 $TESTS/import_lights.py "$@"; }
+$ judge
+$ for m in shared ball watts spot sun area ellipse away; do
++     retex-import -q $m.gltf -o $m &&
++         retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr &&
++         judge $m $m.exr
++ done
 > shared as expected
 > ball as expected
 > watts as expected
@@ -11,12 +16,21 @@ $ for m in shared ball watts spot sun area ellipse away; do retex-import -q $m.g
 > away as expected
 
 # Lengths of lights scale with the scene: it looks the same.
-$ for m in ball area; do retex-import -q --scale 10 $m.gltf -o big-$m && retex-render -q --plain --spp 64 --size 32x32 big-$m/big-$m.pov -o big-$m.exr && /usr/bin/python3 $TESTS/import_lights.py $m big-$m.exr; done
+$ for m in ball area; do
++     retex-import -q --scale 10 $m.gltf -o big-$m &&
++         retex-render -q --plain --spp 64 --size 32x32 big-$m/big-$m.pov -o big-$m.exr &&
++         judge $m big-$m.exr
++ done
 > ball as expected
 > area as expected
 
 # Falloff of Collada's lights; that scales too.
-$ for m in even squared shifted slow; do for s in 1 10; do retex-import -q --scale $s $m.dae -o $m-$s && retex-render -q --plain --spp 4 --size 32x32 $m-$s/$m-$s.pov -o $m-$s.exr && /usr/bin/python3 $TESTS/import_lights.py $m $m-$s.exr; done; done
+$ for m in even squared shifted slow; do
++     for s in 1 10; do
++         retex-import -q --scale $s $m.dae -o $m-$s &&
++             retex-render -q --plain --spp 4 --size 32x32 $m-$s/$m-$s.pov -o $m-$s.exr && judge $m $m-$s.exr
++     done
++ done
 > even as expected
 > even as expected
 > squared as expected
@@ -27,12 +41,18 @@ $ for m in even squared shifted slow; do for s in 1 10; do retex-import -q --sca
 > slow as expected
 
 # An area light is in no light's way: the ceiling above it is lit by all of the floor.
-$ for m in empty behind; do retex-import -q $m.gltf -o $m && retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr; done; /usr/bin/python3 $TESTS/import_lights.py behind behind.exr empty.exr
+$ for m in empty behind; do
++     retex-import -q $m.gltf -o $m &&
++         retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr
++ done
+$ judge behind behind.exr empty.exr
 > behind as expected
 
-# The window of a shifted lens lies a quarter of its width to the right, and half of its height further down, towards the
-# viewer: 4 * 2 tan .3 * .25 is .62, and .5 is 1.24.
-$ retex-import -q lens.gltf -o lens && retex-render -q --plain --spp 4 --size 32x32 --aov position lens/lens.pov -o lens.exr && /usr/bin/python3 $TESTS/import_lights.py position lens.exr
+# The window of a shifted lens lies a quarter of its width to the right, and half of its height further down, towards
+# the viewer: 4 * 2 tan .3 * .25 is .62, and .5 is 1.24.
+$ retex-import -q lens.gltf -o lens &&
++     retex-render -q --plain --spp 4 --size 32x32 --aov position lens/lens.pov -o lens.exr &&
++     judge position lens.exr
 > 0.62 0.00 -1.24
 $ grep aperture lens/lens.pov
 >   aperture 0.2
