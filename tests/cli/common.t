@@ -33,7 +33,10 @@ $ for t in diff pack sample combine denoise info render; do retex-$t --nonsense;
 ! retex-render: error: unknown option --nonsense; try --help
 
 # --help goes to standard output and names every option.
-$ for t in diff pack sample combine denoise info render; do retex-$t --help >help || echo $t; grep -c -e '--threads N' help; done
+$ for t in diff pack sample combine denoise info render; do
++     retex-$t --help >help || echo $t
++     grep -c -e '--threads N' help
++ done
 > 1
 > 1
 > 1
@@ -86,13 +89,20 @@ $ retex-diff --version >&-
 
 # A terminal is neither read nor written: `script` is one.
 $ skip-without script no terminal to try
-$ make_set s.exr; for c in 'retex-render s.pov' 'retex-combine s.exr -o -' 'retex-combine s.exr -o /dev/stdout' 'retex-combine s.exr -o /dev/tty' 'retex-pack s.exr'; do timeout 10 script -qec "$c" /dev/null </dev/null; done | tr -d '\r'
+$ make_set s.exr
+$ for c in 'retex-render s.pov' 'retex-combine s.exr -o -' 'retex-combine s.exr -o /dev/stdout' \
++     'retex-combine s.exr -o /dev/tty' 'retex-pack s.exr'; do
++     timeout 10 script -qec "$c" /dev/null </dev/null
++ done | tr -d '\r'
 > retex-render: error: no output file: give -o FILE, or redirect standard output
 > retex-combine: error: standard output is a terminal; redirect it or name a file: -o FILE
 > retex-combine: error: /dev/stdout is a terminal; name a file: -o FILE
 > retex-combine: error: /dev/tty is a terminal; name a file: -o FILE
 > retex-pack: error: no output file: give -o FILE, or redirect standard output
-$ for c in 'retex-sample - --texture a=b -o x.exr' 'retex-combine - -o x.png' 'retex-combine s.exr --batch -' 'retex-pack - -o x.retex' 'retex-denoise - -o x.exr' 'retex-info -' 'retex-diff - s.exr'; do sleep 1 | timeout 10 script -qec "$c" /dev/null; done | tr -d '\r'
+$ for c in 'retex-sample - --texture a=b -o x.exr' 'retex-combine - -o x.png' 'retex-combine s.exr --batch -' \
++     'retex-pack - -o x.retex' 'retex-denoise - -o x.exr' 'retex-info -' 'retex-diff - s.exr'; do
++     sleep 1 | timeout 10 script -qec "$c" /dev/null
++ done | tr -d '\r'
 > retex-sample: error: standard input is a terminal; expected a set, as from retex-render
 > retex-combine: error: standard input is a terminal; expected a set, as from retex-render or retex-sample
 > retex-combine: error: standard input is a terminal; expected a table

@@ -26,14 +26,21 @@ $ retex
 >
 >   -h, --help                  print this help and exit
 >   -V, --version               print the version and exit
-$ retex --help | cmp - help.txt; retex --help >help.txt; retex | cmp - help.txt && awk 'length > 79' help.txt
->   studio   Retexture a model in the browser: see it, choose surfaces, render, change textures
+$ retex --help | cmp - help.txt
 ! cmp: help.txt: No such file or directory
-$ for tool in "$(dirname "$(command -v retex)")"/retex-*; do name=${tool##*/retex-}; grep -q "^  $name  *[A-Z]" help.txt || echo "$name is not in the list"; done
+= 2
+$ retex --help >help.txt
+$ retex | cmp - help.txt && awk 'length > 79' help.txt
+>   studio   Retexture a model in the browser: see it, choose surfaces, render, change textures
+$ for tool in "$(dirname "$(command -v retex)")"/retex-*; do
++     name=${tool##*/retex-}
++     grep -q "^  $name  *[A-Z]" help.txt || echo "$name is not in the list"
++ done
 
 # The same arguments, output, messages and exit status.
 $ make_set room.exr 64 48 && retex info room.exr >a.txt && retex-info room.exr | cmp - a.txt
-$ retex combine room.exr --texture 'Floor=rgb(.5,.1,.1)' -o a.exr -q && retex-combine room.exr --texture 'Floor=rgb(.5,.1,.1)' -o b.exr -q && cmp a.exr b.exr
+$ retex combine room.exr --texture 'Floor=rgb(.5,.1,.1)' -o a.exr -q &&
++     retex-combine room.exr --texture 'Floor=rgb(.5,.1,.1)' -o b.exr -q && cmp a.exr b.exr
 $ retex info none.exr
 ! retex-info: error: cannot read none.exr: No such file or directory
 = 2
@@ -42,18 +49,29 @@ $ retex info --jsn room.exr
 = 2
 $ retex diff a.exr room.exr --fail-abs 0 >out.txt
 = 1
-$ cat room.exr | retex info - --json >out.txt; head -c 14 out.txt
+$ cat room.exr | retex info - --json >out.txt
+$ head -c 14 out.txt
 > {"file_bytes":
-$ retex render --help >out.txt; head -1 out.txt
+$ retex render --help >out.txt
+$ head -1 out.txt
 > Usage: retex-render [options] SCENE.pov|FILE.ini
 
 # It takes the tool beside it, whatever $PATH says; and one of $PATH where none is beside it.
-$ bin=$(dirname "$(command -v retex)"); mkdir path && printf '#!/bin/sh\necho "mine: $*"\n' >path/retex-info && cp path/retex-info path/retex-mine && chmod +x path/retex-*
-$ bin=$(dirname "$(command -v retex)"); PATH=$PWD/path:$PATH; retex info --version; "$bin/retex" mine a 'b  c' --help
+% bin=$(dirname "$(command -v retex)")
+$ mkdir path
+$ printf '#!/bin/sh\necho "mine: $*"\n' >path/retex-info
+$ cp path/retex-info path/retex-mine
+$ chmod +x path/retex-*
+$ PATH=$PWD/path:$PATH retex info --version
 > retex-info 0.1.0
+$ PATH=$PWD/path:$PATH retex mine a 'b  c' --help
 > mine: a b  c --help
-$ bin=$(dirname "$(command -v retex)"); PATH=/usr/bin:/bin; ln -s "$bin/retex" linked; ./linked info --version; mkdir other; cp "$bin/retex" other; PATH=$bin:$PATH other/retex info --version
+$ ln -s "$bin/retex" linked
+$ PATH=/usr/bin:/bin ./linked info --version
 > retex-info 0.1.0
+$ mkdir other
+$ cp "$bin/retex" other
+$ PATH=$bin:/usr/bin:/bin other/retex info --version
 > retex-info 0.1.0
 
 # Not a command: one line with the nearest name.
@@ -94,7 +112,14 @@ $ retex help combine pack
 = 2
 
 # Pages of the manual: from the source's tree, or beside an installed program; without man, --help.
-$ mkdir -p bin share/man/man1 fake; cp "$(command -v retex)" bin; printf '#!/bin/sh\necho "man $*"\n' >fake/man; chmod +x fake/man; : >share/man/man1/retex-combine.1; : >share/man/man1/retex-pack.1.gz; mkdir -p share/man/man5; : >share/man/man5/retex-set.5
+$ mkdir -p bin share/man/man1 fake
+$ cp "$(command -v retex)" bin
+$ printf '#!/bin/sh\necho "man $*"\n' >fake/man
+$ chmod +x fake/man
+$ : >share/man/man1/retex-combine.1
+$ : >share/man/man1/retex-pack.1.gz
+$ mkdir -p share/man/man5
+$ : >share/man/man5/retex-set.5
 $ for page in combine retex-combine pack set; do PATH=$PWD/fake:$PATH bin/retex help $page | sed "s|$PWD/||"; done
 > man bin/../share/man/man1/retex-combine.1
 > man bin/../share/man/man1/retex-combine.1
@@ -104,9 +129,11 @@ $ PATH=$PWD/fake:$PATH retex help combine | sed 's|man .*/bin/\.\./|man |'
 > man ../man/retex-combine.1
 $ PATH=$PWD/fake:$PATH retex help retex | sed 's|man .*/bin/\.\./|man |'
 > man ../man/retex.1
-$ bin=$(dirname "$(command -v retex)"); PATH=$bin:/nonexistent; bin/retex help combine >/dev/null; retex help combine >out.txt; retex-combine --help | { while read -r line; do echo "$line"; break; done; }
+$ PATH=$bin:/nonexistent bin/retex help combine >/dev/null
+$ PATH=$bin:/nonexistent retex help combine >out.txt
+$ retex-combine --help | head -1
 > Usage: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
-$ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help combine
+$ PATH=/nonexistent "$bin/retex" help combine
 > Usage: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
 >
 > Make a picture from a set, with its original textures or new ones.
