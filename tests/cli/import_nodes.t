@@ -1,17 +1,34 @@
 # retex-import: instances, hidden nodes, and what materials of glTF files do without.
-$ /usr/bin/python3 $TESTS/import_nodes.py && cp $TESTS/import_reference.pov reference.pov && grep '^camera' reference.pov >camera.inc
+$ /usr/bin/python3 $TESTS/import_nodes.py && cp $TESTS/import_reference.pov reference.pov &&
++     grep '^camera' reference.pov >camera.inc
 $ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
-$ printf '%s\n' 'retex-import -q "$@" -o scene || exit' 'cat camera.inc >>scene/scene.pov' 'retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr' 'rm -r scene' >look
-$ printf '%s\n' 'for part in albedo depth uv; do retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs; done' >same
+% # MODEL with the camera of the reference, and whether its picture is another's in all that is seen first:
+% # look MODEL OPTION…; same FILE FILE.
+% look() {
+%     retex-import -q "$@" -o scene || return
+%     cat camera.inc >>scene/scene.pov
+%     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr
+%     rm -r scene
+% }
+% same() {
+%     for part in albedo depth uv; do
+%         retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs
+%     done
+% }
 
 # Each instance is an object: rotations of floats, of words, of bytes, and of words that are compressed.
-$ for m in instances instances_words instances_bytes instances_packed; do sh look $m.gltf && sh same $m.exr reference.exr; done
+$ for m in instances instances_words instances_bytes instances_packed; do
++     look $m.gltf && same $m.exr reference.exr
++ done
 $ retex-import instances.gltf -o instances && grep -c '^object' instances/instances.pov
 > 2
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote instances/instances.pov
-$ for m in uneven beyond many sum nan child; do retex-import -q instances_$m.gltf -o odd; echo $?; done; ls -d odd*
+$ for m in uneven beyond many sum nan child; do
++     retex-import -q instances_$m.gltf -o odd
++     echo $?
++ done
 > 2
 > 2
 > 2
@@ -24,12 +41,15 @@ $ for m in uneven beyond many sum nan child; do retex-import -q instances_$m.glt
 ! retex-import: error: instances_sum.gltf: the instances of nodes[1], by EXT_mesh_gpu_instancing: they are more than 250000
 ! retex-import: error: instances_nan.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: their places are no numbers
 ! retex-import: error: instances_child.gltf: it refers to nodes[3], but has 3 of them
+$ ls -d odd*
 ! ls: cannot access 'odd*': No such file or directory
 = 2
 
 # What is hidden is not there, nor what is below it; its light is off. Its camera is there.
-$ sh look hidden.gltf && sh same hidden.exr reference.exr
-$ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.pov && grep '^camera' hidden/hidden.pov && retex-import -q --camera watchman hidden.gltf -o seen && grep '^camera' seen/seen.pov
+$ look hidden.gltf && same hidden.exr reference.exr
+$ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.pov &&
++     grep '^camera' hidden/hidden.pov && retex-import -q --camera watchman hidden.gltf -o seen &&
++     grep '^camera' seen/seen.pov
 > 1
 > camera { Camera_nodes_2 }
 > camera { Camera_watchman }
@@ -43,9 +63,11 @@ $ for m in circle all; do retex-import -q hidden_$m.gltf -o odd; echo $?; done
 ! retex-import: error: hidden_all.gltf: there are no surfaces in it
 
 # Points and lines are told, also where there is nothing else.
-$ retex-import -q lines.gltf -o lines; grep -c '^object' lines/lines.pov; retex-import -q points.gltf -o points
-> 2
+$ retex-import -q lines.gltf -o lines
 ! retex-import: warning: points and lines are left out
+$ grep -c '^object' lines/lines.pov
+> 2
+$ retex-import -q points.gltf -o points
 ! retex-import: error: points.gltf: there are no surfaces in it
 = 2
 

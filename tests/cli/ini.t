@@ -1,26 +1,44 @@
 # POV-Ray's .ini files and switches. What a scene sees was compared with what POV-Ray 3.7.0.10 prints for the same files
 # and switches, run with `-D -F`; sections, quotes, names without endings, and lines of switches as well.
-$ printf '#debug concat("frame ", str(frame_number, 0, 0), " of ", str(initial_frame, 0, 0), " to ", str(final_frame, 0, 0), " clock ", str(clock, 0, 9), " size ", str(image_width, 0, 0), " x ", str(image_height, 0, 0), "\\n")\nsphere { 0, 1 pigment { rgb 1 } } light_source { -9 * z rgb 1 } camera { location -4 * z look_at 0 }' >t.pov
-$ printf '%s\n' 'retex-render -v --spp 1 "$@" 2>&1 | sed "/samples:/d; s/retex-render: //; s/\.000000000//g"' >r
-$ printf '; a comment\nWidth=8\nHeight = 6\n\n[low]\nWidth=16\n[Rather High, 3:2]\nwidth="32" ; as wide\n+H24\n' >a.ini
-$ sh r a.ini t.pov -o x.exr
+$ cat >t.pov <<'END'
++ #debug concat("frame ", str(frame_number, 0, 0), " of ", str(initial_frame, 0, 0), " to ", str(final_frame, 0, 0))
++ #debug concat(" clock ", str(clock, 0, 9), " size ", str(image_width, 0, 0), " x ", str(image_height, 0, 0), "\n")
++ sphere { 0, 1 pigment { rgb 1 } }
++ light_source { -9 * z rgb 1 }
++ camera { location -4 * z look_at 0 }
++ END
+% render() {
+%     retex-render -v --spp 1 "$@" 2>&1 | sed "/samples:/d; s/retex-render: //; s/\.000000000//g"
+% }
+$ cat >a.ini <<'END'
++ ; a comment
++ Width=8
++ Height = 6
++
++ [low]
++ Width=16
++ [Rather High, 3:2]
++ width="32" ; as wide
++ +H24
++ END
+$ render a.ini t.pov -o x.exr
 > frame 0 of 0 to 0 clock 0 size 8 x 6
-$ sh r 'a.ini[LOW]' t.pov -o x.exr
+$ render 'a.ini[LOW]' t.pov -o x.exr
 > frame 0 of 0 to 0 clock 0 size 16 x 6
-$ sh r t.pov 'a.ini[rather high, 3:2]' -o x.exr
+$ render t.pov 'a.ini[rather high, 3:2]' -o x.exr
 > frame 0 of 0 to 0 clock 0 size 32 x 24
-$ sh r a.ini +W5 t.pov -o x.exr
+$ render a.ini +W5 t.pov -o x.exr
 > frame 0 of 0 to 0 clock 0 size 5 x 6
-$ sh r +W5 a.ini t.pov -o x.exr
+$ render +W5 a.ini t.pov -o x.exr
 > frame 0 of 0 to 0 clock 0 size 8 x 6
-$ sh r --size 9x7 a.ini +W5 t.pov -o x.exr
+$ render --size 9x7 a.ini +W5 t.pov -o x.exr
 > frame 0 of 0 to 0 clock 0 size 9 x 7
 
 # Frames: all, cyclic, other numbers and clocks, a subset by numbers and by shares, a step; and a clock without frames.
 $ for s in +KFF3 '+KFF3 +KC' '+KFI2 +KFF4 +KI1 +KF2' '+KFF3 +KI1 +KF0' '+KFF10 +SF3 +EF4' '+KFF10 +SF0.25 +EF0.35' \
 +     '+KFI0 +KFF20 +KC +SF0.5 +EF0.5' '+KFF7 +STP3 +SF2' '+KFF1' '+K.3' '+KI.2 +KF3'; do
 +     echo "$s"
-+     sh r +It +W4 +H4 $s -o x-%d.exr
++     render +It +W4 +H4 $s -o x-%d.exr
 + done
 > +KFF3
 > frame 1: frame 1 of 1 to 3 clock 0 size 4 x 4
@@ -55,9 +73,10 @@ $ for s in +KFF3 '+KFF3 +KC' '+KFI2 +KFF4 +KI1 +KF2' '+KFF3 +KI1 +KF0' '+KFF10 +
 > frame 0 of 0 to 0 clock 0.300000012 size 4 x 4
 > +KI.2 +KF3
 > frame 0 of 0 to 0 clock 0 size 4 x 4
-$ sh r +It +W4 +H4 +KFF10 --frames 3-4 -o x-%d.exr; sh r +It +W4 +H4 +KI2 +KF4 --frames 3-5 -o x-%d.exr
+$ render +It +W4 +H4 +KFF10 --frames 3-4 -o x-%d.exr
 > frame 3: frame 3 of 1 to 10 clock 0.222222224 size 4 x 4
 > frame 4: frame 4 of 1 to 10 clock 0.333333343 size 4 x 4
+$ render +It +W4 +H4 +KI2 +KF4 --frames 3-5 -o x-%d.exr
 > frame 3: frame 3 of 3 to 5 clock 2 size 4 x 4
 > frame 4: frame 4 of 3 to 5 clock 3 size 4 x 4
 > frame 5: frame 5 of 3 to 5 clock 4 size 4 x 4
@@ -65,20 +84,25 @@ $ sh r +It +W4 +H4 +KFF10 --frames 3-4 -o x-%d.exr; sh r +It +W4 +H4 +KI2 +KF4 -
 # Names: relative to the file; outputs get their number.
 $ mkdir d
 $ cp t.pov d
-$ printf 'Input_File_Name=t\nOutput_File_Name="o 1%%"\n+W4 +H4 -d\nInclude_Ini=frames\n' >d/b.ini
+$ cat >d/b.ini <<'END'
++ Input_File_Name=t
++ Output_File_Name="o 1%"
++ +W4 +H4 -d
++ Include_Ini=frames
++ END
 $ printf 'Final_Frame=10\n+SF9 Declare=A=1\n' >d/frames.ini
-$ sh r d/b.ini
+$ render d/b.ini
 > d/b.ini:3: -d has no meaning here
 > frame 9: frame 9 of 1 to 10 clock 0.888888896 size 4 x 4
 > frame 10: frame 10 of 1 to 10 clock 1 size 4 x 4
-$ sh r d/b.ini +SF10 +FJ
+$ render d/b.ini +SF10 +FJ
 > d/b.ini:3: -d has no meaning here
 > frame 10: frame 10 of 1 to 10 clock 1 size 4 x 4
-$ sh r d/b.ini -o kept.png --frames 2
+$ render d/b.ini -o kept.png --frames 2
 > d/b.ini:3: -d has no meaning here
 > frame 2: frame 2 of 1 to 10 clock 0.111111112 size 4 x 4
 $ printf 'Include_Ini=d/b.ini\nOutput_File_Name=s.png\n+SF10' >c.ini
-$ sh r c.ini
+$ render c.ini
 > d/b.ini:3: -d has no meaning here
 > frame 10: frame 10 of 1 to 10 clock 1 size 4 x 4
 $ ls
@@ -89,7 +113,6 @@ $ ls
 > o 1%09.png
 > o 1%10.jpg
 > o 1%10.png
-> r
 > s10.png
 > t.pov
 > x-%d.exr
@@ -102,24 +125,32 @@ $ ls
 > x.exr
 
 # The window; declarations, of which -D wins; the seed.
-$ sh r t.pov +W20 +H10 +SC3 +EC6 +SR.5 -o x.exr
+$ render t.pov +W20 +H10 +SC3 +EC6 +SR.5 -o x.exr
 > frame 0 of 0 to 0 clock 0 size 20 x 10
 $ retex-info x.exr | grep ^size
 > size           4 x 5 pixels, box filter
 $ echo '#debug concat("A is ", str(A, 0, 0), "\n")' >>t.pov
 $ printf 'Declare=A=3\n' >a.ini
-$ sh r t.pov a.ini --size 4x4 -o x.exr
+$ render t.pov a.ini --size 4x4 -o x.exr
 > frame 0 of 0 to 0 clock 0 size 4 x 4
 > A is 3
-$ sh r t.pov a.ini -D A=4 --size 4x4 +SS7 -o x.exr
+$ render t.pov a.ini -D A=4 --size 4x4 +SS7 -o x.exr
 > frame 0 of 0 to 0 clock 0 size 4 x 4
 > A is 4
 $ retex-info x.exr | grep ^samples
 > samples        1 a pixel, seed 7
 
 # Continue_Trace is --resume; commands are not run; what has no meaning is passed over.
-$ printf 'Declare=A=1\nContinue_Trace=On\nFinal_Frame=2\nAntialias=On\nPost_Frame_Command=touch ran\nPre_Frame_Command=\n+Q9 +A0.1 t.pov' >e.ini
-$ sh r e.ini --size 4x4 -o e-%d.exr
+$ cat >e.ini <<'END'
++ Declare=A=1
++ Continue_Trace=On
++ Final_Frame=2
++ Antialias=On
++ Post_Frame_Command=touch ran
++ Pre_Frame_Command=
++ +Q9 +A0.1 t.pov
++ END
+$ render e.ini --size 4x4 -o e-%d.exr
 > e.ini:4: Antialias has no meaning here
 > e.ini:5: warning: Post_Frame_Command is not run
 > e.ini:7: +Q9 has no meaning here
@@ -128,7 +159,7 @@ $ sh r e.ini --size 4x4 -o e-%d.exr
 > frame 1: A is 1
 > frame 2: frame 2 of 1 to 2 clock 1 size 4 x 4
 > frame 2: A is 1
-$ sh r e.ini --size 4x4 -o e-%d.exr
+$ render e.ini --size 4x4 -o e-%d.exr
 > e.ini:4: Antialias has no meaning here
 > e.ini:5: warning: Post_Frame_Command is not run
 > e.ini:7: +Q9 has no meaning here
@@ -142,6 +173,7 @@ $ retex-render -q e.ini --list-targets
 ! retex-render: e.ini:5: warning: Post_Frame_Command is not run
 
 # Mistakes: one line, with file and line, before anything is rendered.
+% # Options in a file: try TEXT OPTION…
 % try() {
 %     printf "$1" >f.ini
 %     shift
@@ -234,21 +266,22 @@ $ retex-render -q g0.ini
 = 2
 
 # With --safe, a file names only what is in its folder.
-$ cd d
-+ for l in Input_File_Name=../t.pov Input_File_Name=/etc/passwd Include_Ini=../a.ini Library_Path=.. \
+% cd d
+$ for l in Input_File_Name=../t.pov Input_File_Name=/etc/passwd Include_Ini=../a.ini Library_Path=.. \
 +     Output_File_Name=x; do
 +     echo "$l" >h.ini
 +     retex-render -q --safe h.ini -o x.exr
 + done
-+ echo 't.pov' >h.ini
-+ retex-render -q --safe --size 4x4 h.ini -o x.exr
-+ retex-render -q --safe --size 4x4 ../d/h.ini -o x.exr
-+ cd ..
-+ retex-render -q --safe --size 4x4 d/h.ini -o y.exr
-+ ls y.exr
-> y.exr
 ! retex-render: error: h.ini:1: Input_File_Name: ../t.pov is outside the folder of the .ini file (--safe)
 ! retex-render: error: h.ini:1: Input_File_Name: /etc/passwd.pov is outside the folder of the .ini file (--safe)
 ! retex-render: error: h.ini:1: the file: ../a.ini is outside the folder of the .ini file (--safe)
 ! retex-render: error: h.ini:1: Library_Path: .. is outside the folder of the .ini file (--safe)
 ! retex-render: error: h.ini:1: Output_File_Name: an .ini file names no output (--safe): give -o
+= 2
+$ echo 't.pov' >h.ini
+$ retex-render -q --safe --size 4x4 h.ini -o x.exr
+$ retex-render -q --safe --size 4x4 ../d/h.ini -o x.exr
+% cd ..
+$ retex-render -q --safe --size 4x4 d/h.ini -o y.exr
+$ ls y.exr
+> y.exr

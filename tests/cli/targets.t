@@ -13,9 +13,16 @@ $ cat >room.pov <<'END'
 + face_indices { 2, <0,1,2>,0, <0,2,3>,1 } }
 + pigment { image_map { png "grey.png" } } }
 + END
-$ printf 'P6 1 1 255 \200\200\200' >grey.ppm; oiiotool grey.ppm -o grey.png
-$ printf 'for t; do retex-render -q --size 8x8 --spp 2 -t "A=$t" room.pov -o a.exr && retex-info a.exr | awk "/^ +idents/ { i = \\$2 } /^ +share/ { print i, \\$2 }"; done\n' >shares
-$ sh shares Pine '#1' '#2' '#4' '#4.1' '#1,#2' '@0:0' '@0:0/object' '@7:7' '@7:0' '@7:0/object' '@7:0/material' \
+$ printf 'P6 1 1 255 \200\200\200' >grey.ppm
+$ oiiotool grey.ppm -o grey.png
+% # Which parts a target has, and their shares of the picture: shares TARGET…
+% shares() {
+%     for t; do
+%         retex-render -q --size 8x8 --spp 2 -t "A=$t" room.pov -o a.exr &&
+%             retex-info a.exr | awk '/^ +idents/ { i = $2 } /^ +share/ { print i, $2 }'
+%     done
+% }
+$ shares Pine '#1' '#2' '#4' '#4.1' '#1,#2' '@0:0' '@0:0/object' '@7:7' '@7:0' '@7:0/object' '@7:0/material' \
 +     '@3:4,@4:4' '#4.2/material' '@0:0/flat' '@4:0/level' '@7:7/flat' '#4/level:1' room.pov:5 room.pov:6 room.pov:7 \
 +     room.pov:8 room.pov:10 '~rgb(.1,.2,.7)' '~rgb( .8, .4, .2 ),#2' '*grey.png' 'gr?y.png' grey.png
 > Pine 37.50%
@@ -123,16 +130,18 @@ $ ls b.exr
 ! ls: cannot access 'b.exr': No such file or directory
 = 2
 # A pixel of the sky, and a picture that shows nothing.
-$ printf '%s\n' \
-+     'camera { location <0,0,-5> look_at 0 } light_source { <1,2,-9> rgb 1 } sphere { 0, 1 } background { rgb 1 }' \
-+     >ball.pov
+$ cat >ball.pov <<'END'
++ camera { location <0,0,-5> look_at 0 } light_source { <1,2,-9> rgb 1 } sphere { 0, 1 } background { rgb 1 }
++ END
 $ retex-render -q --size 40x30 -t A=@1:15 ball.pov -o b.exr
 ! retex-render: error: pixel @1:15 shows no object; the nearest that does is @14:15
 = 2
 $ retex-render -q --size 40x30 -t A=@39:29,@2:2 ball.pov -o b.exr
 ! retex-render: error: pixel @39:29 shows no object; the nearest that does is @25:17
 = 2
-$ printf '%s\n' 'camera { location <0,0,-5> look_at -9*z } light_source { <1,2,-9> rgb 1 } sphere { 0, 1 }' >away.pov
+$ cat >away.pov <<'END'
++ camera { location <0,0,-5> look_at -9*z } light_source { <1,2,-9> rgb 1 } sphere { 0, 1 }
++ END
 $ retex-render -q --size 40x30 -t A=@1:15 away.pov -o b.exr
 ! retex-render: error: pixel @1:15 shows no object, nor does any other
 = 2
@@ -142,9 +151,10 @@ $ retex-render -q --size 8x8 -t 'A=#1' -t 'B=#2' -t 'C=#3' -t 'D=#4' -t 'E=#1' -
 ! retex-render: error: 9 targets, where there may be 8
 = 2
 # With -v the list has also what can be pointed at, and where it stands; without, only names.
-$ retex-render -q --list-targets --size 8x8 room.pov; retex-render -q -v --list-targets --size 8x8 room.pov 2>/dev/null
+$ retex-render -q --list-targets --size 8x8 room.pov
 >  37.50%  Pine
 >  25.00%  Post
+$ retex-render -q -v --list-targets --size 8x8 room.pov 2>/dev/null
 >  37.50%  Pine
 >  25.00%  Post
 > 100.00%  #1/level:5         level      room.pov:5 in room.pov:6
@@ -191,7 +201,12 @@ $ retex-render -q -v --list-targets --max-memory 200 --size 16000x16000 room.pov
 > 1
 # A width on a cylinder means whole repeats around it, in set and --replace alike: 4.4 become 4, which need no seam.
 $ printf 'P6 4 1 255 \200\000\000\377\377\377\000\000\200\000\200\000' >stripes.ppm
-$ echo '#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location -9*z right 4*x up 3*y } background { rgb 1 } #declare T = texture { pigment { rgb 1 } } cylinder { -y, y, 1 texture { T } rotate 90*y }' >can.pov
+$ cat >can.pov <<'END'
++ #version 3.7; global_settings { assumed_gamma 1 }
++ camera { orthographic location -9*z right 4*x up 3*y } background { rgb 1 }
++ #declare T = texture { pigment { rgb 1 } }
++ cylinder { -y, y, 1 texture { T } rotate 90*y }
++ END
 $ retex-render -q --spp 16 --size 16x12 -t T can.pov -o set.exr
 $ for w in 1.5708 1.428; do
 +     retex-combine -q set.exr --texture:width=$w,2 T=stripes.ppm -o s$w.exr
@@ -201,7 +216,13 @@ $ retex-diff -q --fail-abs 1e-4 s1.5708.exr s1.428.exr && retex-diff -q --fail-a
 +     echo same
 > same
 # Parts of different size get the same scale of texture: a width of 1 is 1 on all of them. Set and --replace agree.
-$ echo '#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location -9*z right 4*x up 3*y } background { rgb 1 } light_source { -99*z rgb 1 } box { <-2,-1.5,0>, <0,1.5,1> pigment { rgb .5 } } box { -1, 1 scale <1,.5,2> translate <1,1,1> pigment { rgb .5 } }' >parts.pov
+$ cat >parts.pov <<'END'
++ #version 3.7; global_settings { assumed_gamma 1 }
++ camera { orthographic location -9*z right 4*x up 3*y } background { rgb 1 }
++ light_source { -99*z rgb 1 }
++ box { <-2,-1.5,0>, <0,1.5,1> pigment { rgb .5 } }
++ box { -1, 1 scale <1,.5,2> translate <1,1,1> pigment { rgb .5 } }
++ END
 $ retex-render -q --spp 64 --size 16x12 -t 'T=~rgb(.5,.5,.5)' parts.pov -o parts.exr
 $ retex-info parts.exr | sed -n '/  size/p'
 >   size         1 x 1 scene units a unit of u and of v
