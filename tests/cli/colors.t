@@ -49,8 +49,8 @@ $ iinfo -v -a a.exr | sed -n 's/^ *\(colorInteropID\|oiio:subimagename\): //p' |
 
 # The same picture, whatever it was written in.
 $ for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-combine -q s.exr --texture Floor=$f.exr -o $f-on.exr; done
-+ retex-combine -q s.exr --texture Floor=linear.exr -o on.exr
-+ for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-diff -q on.exr $f-on.exr --fail-psnr 90 || echo $f; done
+$ retex-combine -q s.exr --texture Floor=linear.exr -o on.exr
+$ for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-diff -q on.exr $f-on.exr --fail-psnr 90 || echo $f; done
 $ retex-combine -q s.exr --texture:colorspace=linear Floor=ACEScg.exr -o x.exr
 $ retex-diff -q on.exr x.exr --fail-psnr 80
 = 1
@@ -78,11 +78,26 @@ $ oiiotool a.exr --subimage uv --ch uv.U,uv.V,uv.A --printstats | sed -n 's/ *St
 > Max: 0.996351 1.992549 1.000000 (float)
 
 # $OCIO's displays and views, by name: two displays, of which each has two views.
-$ printf 'ocio_profile_version: 2\nroles: {default: lin, scene_linear: lin, data: lin}\nfile_rules:\n  - !<Rule> {name: Default, colorspace: default}\ndisplays:\n  One:\n    - !<View> {name: Plain, colorspace: lin}\n    - !<View> {name: Half, colorspace: half}\n  Two:\n    - !<View> {name: Plain, colorspace: quarter}\n    - !<View> {name: Half, colorspace: eighth}\ncolorspaces:\n  - !<ColorSpace> {name: lin}\n' >two.ocio
+$ cat >two.ocio <<'END'
++ ocio_profile_version: 2
++ roles: {default: lin, scene_linear: lin, data: lin}
++ file_rules:
++   - !<Rule> {name: Default, colorspace: default}
++ displays:
++   One:
++     - !<View> {name: Plain, colorspace: lin}
++     - !<View> {name: Half, colorspace: half}
++   Two:
++     - !<View> {name: Plain, colorspace: quarter}
++     - !<View> {name: Half, colorspace: eighth}
++ colorspaces:
++   - !<ColorSpace> {name: lin}
++ END
 $ for c in 'half 2' 'quarter 4' 'eighth 8'; do
 +     set -- $c
-+     printf '  - !<ColorSpace>\n    name: %s\n    to_scene_reference: !<MatrixTransform> {matrix: [%s, 0, 0, 0, 0, %s, 0, 0, 0, 0, %s, 0, 0, 0, 0, 1]}\n' $1 $2 $2 $2 >>two.ocio
-+ done
++     printf '  - !<ColorSpace>\n    name: %s\n' $1
++     printf '    to_scene_reference: !<MatrixTransform> {matrix: [%s,0,0,0, 0,%s,0,0, 0,0,%s,0, 0,0,0,1]}\n' $2 $2 $2
++ done >>two.ocio
 % show() {
 %     OCIO=two.ocio retex-combine -q s.exr --texture 'floor=rgb(0.2,0.1,0.05)' --texture 'wall=rgb(0.05,0.1,0.2)' "$@" \
 %         -o shown.tif

@@ -1,6 +1,11 @@
 # Pictures that take what they want are decoded in a process of their own (--safe): one line says what was wrong, and no
 # process is left.
-$ make_set s.exr 24 16; python3 "$TESTS/decoder.py"; for f in tile.tif channels.tif scans.jpg most.jpg few.tif; do retex-combine -q --safe s.exr --texture floor=$f -o x.exr; echo $f $?; done
+$ make_set s.exr 24 16
+$ python3 "$TESTS/decoder.py"
+$ for f in tile.tif channels.tif scans.jpg most.jpg few.tif; do
++     retex-combine -q --safe s.exr --texture floor=$f -o x.exr
++     echo $f $?
++ done
 > tile.tif 2
 > channels.tif 2
 > scans.jpg 2
@@ -13,15 +18,36 @@ $ make_set s.exr 24 16; python3 "$TESTS/decoder.py"; for f in tile.tif channels.
 $ retex-combine -q s.exr --texture floor=scans.jpg -o x.exr
 
 # Memory counts with that of the command.
-$ retex-combine -q --safe --max-memory 100M s.exr --texture floor=wide.tif -o x.exr; retex-combine -q --safe --max-memory 1G s.exr --texture floor=wide.tif -o y.exr && ls y.exr
-> y.exr
+$ retex-combine -q --safe --max-memory 100M s.exr --texture floor=wide.tif -o x.exr
 ! retex-combine: error: wide.tif: decoding it takes more than the 100 MB that --max-memory leaves
+= 2
+$ retex-combine -q --safe --max-memory 1G s.exr --texture floor=wide.tif -o y.exr && ls y.exr
+> y.exr
 
 # Time is the command's; what ends the command ends the decoder.
-$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; DECODER_MARK=a$$ retex-combine -q --safe --max-time 1 s.exr --texture floor=long.png -o x.exr; left a$$
-> 0
+% # How many processes have the mark: left MARK.
+% left() {
+%     sleep .3
+%     grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l
+% }
+$ DECODER_MARK=a$$ retex-combine -q --safe --max-time 1 s.exr --texture floor=long.png -o x.exr
 ! retex-combine: error: not done within the 1 s of --max-time
-$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; for signal in 15 2 9; do DECODER_MARK=b$$ python3 -c 'import signal, subprocess, sys, time; signal.signal(2, signal.SIG_DFL); p = subprocess.Popen(["retex-combine", "-q", "--safe", "s.exr", "--texture", "floor=long.png", "-o", "x.exr"], stderr=subprocess.DEVNULL); time.sleep(.5); p.send_signal(int(sys.argv[1])); print(p.wait())' $signal; left b$$; done
+= 2
+$ left a$$
+> 0
+$ cat >end.py <<'END'
++ import signal, subprocess, sys, time
++ signal.signal(2, signal.SIG_DFL)
++ command = ["retex-combine", "-q", "--safe", "s.exr", "--texture", "floor=long.png", "-o", "x.exr"]
++ combine = subprocess.Popen(command, stderr=subprocess.DEVNULL)
++ time.sleep(.5)
++ combine.send_signal(int(sys.argv[1]))
++ print(combine.wait())
++ END
+$ for signal in 15 2 9; do
++     DECODER_MARK=b$$ python3 end.py $signal
++     left b$$
++ done
 > -15
 > 0
 > -2
@@ -30,18 +56,51 @@ $ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; };
 > 0
 
 # The program that decodes.
-$ RETEX_DECODER=/nowhere/decode retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/false retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/echo retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/yes retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
+$ RETEX_DECODER=/nowhere/decode retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
 ! retex-combine: error: most.jpg: no process to decode it: No such file or directory
+= 2
+$ RETEX_DECODER=/bin/false retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
 ! retex-combine: error: most.jpg: the process that decodes it ended (without a word): it is damaged
+= 2
+$ RETEX_DECODER=/bin/echo retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
 ! retex-combine: error: most.jpg: the process that decodes it ended (without a word): it is damaged
+= 2
+$ RETEX_DECODER=/bin/yes retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
 ! retex-combine: error: most.jpg: the process that decodes it gave a wrong answer: it is damaged
 = 2
 # What it says to a user: which layers this kernel has.
 $ $(dirname "$(command -v retex-combine)")/../lib/retex-decode | sed 's/: \(yes\|no\)/: ANSWER/g'
 > retex-decode: other programs of retex start it, to decode a picture; seccomp: ANSWER, Landlock: ANSWER
 # The user's configuration, and the tables of its spaces, are read before the decoder gives up its rights.
-$ printf 'Version 1\nFrom 0.0 1.0\nLength 3\nComponents 1\n{\n0.0\n0.2\n1.0\n}\n' >table.spi1d; printf '%s\n' 'ocio_profile_version: 1' 'search_path: .' 'roles: {default: lin, scene_linear: lin}' 'displays: {d: [!<View> {name: v, colorspace: lin}]}' 'colorspaces:' '  - !<ColorSpace> {name: lin}' '  - !<ColorSpace> {name: odd, to_reference: !<FileTransform> {src: table.spi1d, interpolation: linear}}' >c.ocio; retex-combine -q s.exr -o t.png; for f in t.png few.tif s.exr; do OCIO=c.ocio retex-combine -q s.exr --texture:colorspace=odd floor=$f -o any.exr; OCIO=c.ocio retex-combine --safe -q s.exr --texture:colorspace=odd floor=$f -o safe.exr && cmp any.exr safe.exr && echo $f; done; retex-combine -q s.exr --texture floor=t.png -o any.exr; cmp -s any.exr safe.exr
+$ cat >table.spi1d <<'END'
++ Version 1
++ From 0.0 1.0
++ Length 3
++ Components 1
++ {
++ 0.0
++ 0.2
++ 1.0
++ }
++ END
+$ cat >c.ocio <<'END'
++ ocio_profile_version: 1
++ search_path: .
++ roles: {default: lin, scene_linear: lin}
++ displays: {d: [!<View> {name: v, colorspace: lin}]}
++ colorspaces:
++   - !<ColorSpace> {name: lin}
++   - !<ColorSpace> {name: odd, to_reference: !<FileTransform> {src: table.spi1d, interpolation: linear}}
++ END
+$ retex-combine -q s.exr -o t.png
+$ for f in t.png few.tif s.exr; do
++     OCIO=c.ocio retex-combine -q s.exr --texture:colorspace=odd floor=$f -o any.exr
++     OCIO=c.ocio retex-combine --safe -q s.exr --texture:colorspace=odd floor=$f -o safe.exr &&
++         cmp any.exr safe.exr && echo $f
++ done
 > t.png
 > few.tif
 > s.exr
+$ retex-combine -q s.exr --texture floor=t.png -o any.exr
+$ cmp -s any.exr safe.exr
 = 1
