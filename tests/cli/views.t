@@ -2,9 +2,9 @@
 $ cp "$SCENES/textures/brick.jpg" .
 $ mkdir textures presets
 $ cp brick.jpg textures
-$ printf 'exec retex-render -q --size 64x48 --spp 16 "$TESTS/finishes.pov" -t Floor -t Wall "$@"' >r
-$ sh r --lamps each -o set.exr
-$ printf 'retex-diff "$1" "$2" --fail-psnr "$3" -q || echo "$1 $2 $3"' >near
+% render() { retex-render -q --size 64x48 --spp 16 "$TESTS/finishes.pov" -t Floor -t Wall "$@"; }
+$ render --lamps each -o set.exr
+% near() { retex-diff "$1" "$2" --fail-psnr "$3" -q || echo "$1 $2 $3"; }
 
 # The exposure that was found is told; it is the same for every number of threads.
 $ retex-combine set.exr --auto-exposure --exposure 1 --view filmic -o a.png 2>&1 |
@@ -15,33 +15,39 @@ $ cmp 1.exr 2.exr
 $ cmp 1.exr 7.exr
 $ retex-combine -q set.exr --exposure 1 -o a.exr
 $ oiiotool set.exr --ch R,G,B --mulc 2 -d half -o b.exr
-$ sh near a.exr b.exr 60
+$ near a.exr b.exr 60
 $ retex-combine -q set.exr --exposure 0 --view standard -o a.png
 $ retex-combine -q set.exr -o b.png
 $ cmp a.png b.png
 $ retex-combine -q set.exr --white-balance 3000 -o a.exr
-$ sh near a.exr set.exr 30
+$ near a.exr set.exr 30
 > a.exr set.exr 30
 
-# It is the same by options, table, samples, packs, frames and presets. A row goes before options, options before a preset.
-$ O='--exposure .5 --white-balance 4000 --auto-exposure --view Neutral'
-+ T='--texture:scale=2 Floor=brick.jpg --light *=.5'
-+ retex-combine -q set.exr $T $O -o a.png --save-preset presets/a.json
-+ cat presets/a.json
-+ printf 'output,Floor,light:*,picture:exposure,picture:white-balance,picture:auto-exposure,picture:view\nb.png,:scale=2 brick.jpg,.5,.5,4000,yes,Neutral\nc.png,:scale=2 brick.jpg,.5,1,,,\nd.png,tan,,,,no,\n' >t.csv
-+ retex-combine -q set.exr --batch t.csv --preset presets/a.json --exposure 3
-+ cmp a.png b.png
-+ retex-combine -q set.exr $T --exposure 1 --white-balance 4000 --auto-exposure --view Neutral -o n.png
-+ cmp n.png c.png
-+ retex-combine -q set.exr --light '*=.5' --texture Floor=tan --exposure 3 --white-balance 4000 --view Neutral -o n.png
-+ cmp n.png d.png
-+ retex-combine -q set.exr --preset presets/a.json -o b.png
-+ cmp a.png b.png
-+ retex-sample -q set.exr --preset presets/a.json | retex-combine -q - --light '*=.5' $O -o b.png
+# It is the same by options, table, samples, packs, frames and presets. A row goes before options, options before a
+# preset.
+% look='--exposure .5 --white-balance 4000 --auto-exposure --view Neutral'
+% edit='--texture:scale=2 Floor=brick.jpg --light *=.5'
+$ retex-combine -q set.exr $edit $look -o a.png --save-preset presets/a.json
+$ cat presets/a.json
 > {
 >   "retex-preset": 1,
 >   "edit": "Floor=../brick.jpg;Floor.scale=2,2;light:*=0.5;picture:auto-exposure=yes;picture:exposure=0.5;picture:view=Neutral;picture:white-balance=4000"
 > }
+$ cat >t.csv <<'END'
++ output,Floor,light:*,picture:exposure,picture:white-balance,picture:auto-exposure,picture:view
++ b.png,:scale=2 brick.jpg,.5,.5,4000,yes,Neutral
++ c.png,:scale=2 brick.jpg,.5,1,,,
++ d.png,tan,,,,no,
++ END
+$ retex-combine -q set.exr --batch t.csv --preset presets/a.json --exposure 3
+$ cmp a.png b.png
+$ retex-combine -q set.exr $edit --exposure 1 --white-balance 4000 --auto-exposure --view Neutral -o n.png
+$ cmp n.png c.png
+$ retex-combine -q set.exr --light '*=.5' --texture Floor=tan --exposure 3 --white-balance 4000 --view Neutral -o n.png
+$ cmp n.png d.png
+$ retex-combine -q set.exr --preset presets/a.json -o b.png
+$ cmp a.png b.png
+$ retex-sample -q set.exr --preset presets/a.json | retex-combine -q - --light '*=.5' $look -o b.png
 $ cmp a.png b.png
 $ retex-pack -q set.exr --lossless -o set.retex
 $ retex-combine -q set.retex --preset presets/a.json -o b.png
@@ -50,7 +56,9 @@ $ retex-combine -q set.exr --frames 7 --preset presets/a.json -o f.%02d.png
 $ cmp a.png f.07.png
 
 # A preset may be moved with its images. Options go before it, a texture as a whole.
-$ (cd textures && retex-combine -q ../set.exr --texture:scale=3 Floor=brick.jpg --texture Wall=tan --exposure 1 -o ../a.png --save-preset ../presets/b.json)
+$ cd textures
++ retex-combine -q ../set.exr --texture:scale=3 Floor=brick.jpg --texture Wall=tan --exposure 1 -o ../a.png \
++     --save-preset ../presets/b.json
 $ mkdir moved
 $ mv presets textures moved
 $ retex-combine -q set.exr --preset moved/presets/b.json -o b.png
@@ -73,10 +81,24 @@ $ cmp a.exr b.exr
 $ retex-combine -q set.exr --exposure 1 --colorspace ACEScg -o a.exr
 $ retex-combine -q set.exr --colorspace ACEScg -o b.exr
 $ oiiotool b.exr --mulc 2 -d half -o b.exr
-$ sh near a.exr b.exr 60
+$ near a.exr b.exr 60
 
 # The views of a configuration of the user are its own.
-$ printf 'ocio_profile_version: 2\nroles: {default: lin, scene_linear: lin}\nfile_rules:\n  - !<Rule> {name: Default, colorspace: default}\ndisplays:\n  One:\n    - !<View> {name: Plain, colorspace: lin}\n    - !<View> {name: Filmic, colorspace: half}\ncolorspaces:\n  - !<ColorSpace> {name: lin}\n  - !<ColorSpace>\n    name: half\n    to_scene_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}\n' >c.ocio
+$ cat >c.ocio <<'END'
++ ocio_profile_version: 2
++ roles: {default: lin, scene_linear: lin}
++ file_rules:
++   - !<Rule> {name: Default, colorspace: default}
++ displays:
++   One:
++     - !<View> {name: Plain, colorspace: lin}
++     - !<View> {name: Filmic, colorspace: half}
++ colorspaces:
++   - !<ColorSpace> {name: lin}
++   - !<ColorSpace>
++     name: half
++     to_scene_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}
++ END
 $ export OCIO=$PWD/c.ocio
 + retex-combine -q set.exr --view Filmic -o a.png
 + retex-combine -q set.exr --view Plain --exposure -1 -o b.png
@@ -88,16 +110,16 @@ $ export OCIO=$PWD/c.ocio
 
 # retex-render puts the textures of a preset on targets without --replace.
 $ retex-combine -q set.exr --texture:scale=2 Floor=brick.jpg --texture Wall=tan -o a.png --save-preset r.json
-$ sh r --spp 2 --preset r.json -o a.exr
-$ sh r --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=tan -o b.exr
+$ render --spp 2 --preset r.json -o a.exr
+$ render --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=tan -o b.exr
 $ cmp a.exr b.exr
-$ sh r --spp 2 --preset r.json --replace Wall=red -o a.exr
-$ sh r --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=red -o b.exr
+$ render --spp 2 --preset r.json --replace Wall=red -o a.exr
+$ render --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=red -o b.exr
 $ cmp a.exr b.exr
 $ retex-combine -q set.exr --texture Floor=tan --exposure 1 -o a.png --save-preset r.json
-$ sh r --spp 1 --preset r.json -o a.exr
+$ render --spp 1 --preset r.json -o a.exr
 ! retex-render: warning: only textures of --preset are rendered: what it says of lamps, finishes and the picture is left out
-$ sh r --preset gone.json -o gone.exr
+$ render --preset gone.json -o gone.exr
 ! retex-render: error: cannot read gone.json: No such file or directory
 = 2
 $ test -e gone.exr
@@ -116,8 +138,7 @@ $ cmp a.exr b.exr
 $ head -c 9999 set.exr >begin.exr
 $ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '--view Filmic --colorspace sRGB' \
 +     '--solve red --exposure 1' '--solve red --save-preset y.json' '--save-preset gone/x.json' '--preset gone.json' \
-+     '--preset begin.exr' '--save-preset x.png' '--preset moved --save-preset y.json' '--texture picture:exposure=1'; \
-+     do
++     '--preset begin.exr' '--save-preset x.png' '--preset moved --save-preset y.json' '--texture picture:exposure=1'; do
 +     retex-combine set.exr $o -o x.png
 + done
 ! retex-combine: error: exposure '31': expected stops, -30 to 30, as in 0.5
@@ -165,7 +186,11 @@ $ retex-combine set.exr --preset x.json --save-preset x.json -o x.png
 = 2
 $ test -e x.png -o -e x.exr
 = 1
-$ printf 'output,picture:exposure,picture:exposure,picture:view,picture:exposur\nx.png,1,,Filmy,\ny.png,99,,,1\n' >t.csv
+$ cat >t.csv <<'END'
++ output,picture:exposure,picture:exposure,picture:view,picture:exposur
++ x.png,1,,Filmy,
++ y.png,99,,,1
++ END
 $ retex-combine set.exr --batch t.csv
 ! retex-combine: error: t.csv:1: 'picture:exposure' has two columns
 ! retex-combine: error: t.csv:2: display sRGB has no view 'Filmy'; there are Standard, Filmic, Neutral, Raw
