@@ -1,5 +1,17 @@
 # Completion. --complete of the tools says what can stand in place of the last word; bash, zsh and fish call it.
-$ make_set room.exr 64 48 && cp room.exr 'my room.exr' && retex-pack -q room.exr -o room.retex && mkdir folder && touch oak.jpg oak.txt table.csv && echo 'camera { location <0,1,-3> look_at 0 } light_source { <1,3,-3> 1 } #declare Floor = pigment { rgb .5 } #declare Wall = pigment { rgb .7 } plane { y, -1 pigment { Floor } } plane { z, 5 pigment { Wall } }' >box.pov
+$ make_set room.exr 64 48
+$ cp room.exr 'my room.exr'
+$ retex-pack -q room.exr -o room.retex
+$ mkdir folder
+$ touch oak.jpg oak.txt table.csv
+$ cat >box.pov <<'END'
++ camera { location <0,1,-3> look_at 0 }
++ light_source { <1,3,-3> 1 }
++ #declare Floor = pigment { rgb .5 }
++ #declare Wall = pigment { rgb .7 }
++ plane { y, -1 pigment { Floor } }
++ plane { z, 5 pigment { Wall } }
++ END
 
 # Words without a tab are for people, here without what --help says.
 $ retex-info --complete ''
@@ -37,52 +49,74 @@ $ retex-combine --complete room.exr --texture:scale=2 Wall=
 > :files		exr
 $ retex-combine --complete room.exr --texture=Wall=folder/
 > :files	--texture=Wall=	
-$ retex-combine --complete room.exr ''; retex-combine --complete room.exr room.exr ''
+$ retex-combine --complete room.exr ''
 > :files		exr
-$ retex-combine --complete -- ''; retex-combine --complete -- -; retex-combine --complete room.exr -- ''
+$ retex-combine --complete room.exr room.exr ''
+$ retex-combine --complete -- ''
 > :files		exr retex
+$ retex-combine --complete -- -
 > :files		exr retex
+$ retex-combine --complete room.exr -- ''
 > :files		exr
-$ retex-combine --complete --batch ''; retex-combine --complete --batch=; retex-combine --complete --batch-root ''; retex-combine --complete --error ''; retex-combine --complete -o ''; retex-combine --complete -ox; retex-combine --complete -qo ''
+$ retex-combine --complete --batch ''
 > :files		csv
+$ retex-combine --complete --batch=
 > :files	--batch=	csv
+$ retex-combine --complete --batch-root ''
 > :folders	
+$ retex-combine --complete --error ''
 > :files		exr
+$ retex-combine --complete -o ''
 > :files		
+$ retex-combine --complete -ox
 > :files	-o	
+$ retex-combine --complete -qo ''
 > :files		
-$ retex-combine --complete --quality ''; retex-combine --complete --quality=; retex-combine --complete --no-such=; retex-combine --complete --memory 1 ''
+$ retex-combine --complete --quality ''
+$ retex-combine --complete --quality=
+$ retex-combine --complete --no-such=
+$ retex-combine --complete --memory 1 ''
 > :files		exr retex
-$ retex-combine --complete --cross ''; retex-combine --complete --cross=; retex-combine --complete --progress ''
+$ retex-combine --complete --cross ''
 > 0	
 > 2	
 > 3	
+$ retex-combine --complete --cross=
 > --cross=0	
 > --cross=2	
 > --cross=3	
+$ retex-combine --complete --progress ''
 > json	
 $ retex-combine --complete --texture: | cut -f1 | tr '\n' ' '
 > --texture:scale= --texture:rotate= --texture:offset= --texture:flip= --texture:width= --texture:wrap= --texture:repeat= --texture:colorspace= --texture:finish= --texture:normal= --texture:grout= --texture:groutcolor= --texture:vary= --texture:tiles= --texture:at= --texture:hue= --texture:saturation= --texture:gain= --texture:gamma= --texture:contrast= --texture:blur= --texture:invert= --texture:tint= --texture:colorize=
-$ retex-combine --complete --texture:scale=2:wrap=r; retex-combine --complete --texture:scale=
+$ retex-combine --complete --texture:scale=2:wrap=r
 > --texture:scale=2:wrap=repeat	
 > --texture:scale=2:wrap=mirror	
 > --texture:scale=2:wrap=clamp	
 > --texture:scale=2:wrap=black	
-$ retex-render --complete --layout ''; retex-render --complete --aov depth,alb | head -3
+$ retex-combine --complete --texture:scale=
+$ retex-render --complete --layout ''
 > footprints	
 > paper	
+$ retex-render --complete --aov depth,alb | head -3
 > depth,beauty	
 > depth,depth	
 > depth,albedo	
-$ retex-render --complete ''; retex-render --complete --control ''; retex-render --complete --list-targets=; retex-render --complete --list-targets ''
+$ retex-render --complete ''
 > :files		pov ini
+$ retex-render --complete --control ''
 > :files		exr retex
+$ retex-render --complete --list-targets=
 > :files	--list-targets=	
+$ retex-render --complete --list-targets ''
 > :files		pov ini
-$ retex-serve --complete ''; retex-diff --complete a.exr ''; retex-pack --complete --web ''; retex-import --complete --up ''
+$ retex-serve --complete ''
 > :folders	
+$ retex-diff --complete a.exr ''
 > :files		
+$ retex-pack --complete --web ''
 > :folders	
+$ retex-import --complete --up ''
 > y	
 > z	
 
@@ -93,37 +127,58 @@ $ RETEX_MAX_TIME=60 retex-render --complete box.pov -q -D clock=1 -t ''
 $ RETEX_MAX_TIME=60 retex-render --complete box.pov --replace '' | cut -f1
 > Floor=
 > Wall=
-$ echo '#while (1) #end' >endless.pov; retex-render --complete endless.pov -t ''
-$ echo 'nonsense' >wrong.pov; retex-render --complete wrong.pov -t ''
+$ echo '#while (1) #end' >endless.pov
+$ retex-render --complete endless.pov -t ''
+$ echo 'nonsense' >wrong.pov
+$ retex-render --complete wrong.pov -t ''
 
 # Names of targets come from files: what a shell might obey, or a terminal, is left out.
 $ make_set named.exr 64 48 'name:A plain wall' 'name:B$(touch x)' && retex-combine --complete named.exr --texture ''
 > A plain wall=	40.0 % of the picture
-$ for name in 'a;b' 'a`b' "$(printf 'a\033[1m')" "$(printf 'a\tb')" 'a"b' "a'b" 'a\b' 'a|b' '-a' '~a' 'a!b' 'a&b' 'a<b' 'a*b' ' '; do make_set x.exr "name:$name" && retex-combine --complete x.exr --texture ''; done | grep -v ^Wall
+$ for name in 'a;b' 'a`b' "$(printf 'a\033[1m')" "$(printf 'a\tb')" 'a"b' "a'b" 'a\b' 'a|b' '-a' '~a' 'a!b' 'a&b' \
++     'a<b' 'a*b' ' '; do
++     make_set x.exr "name:$name" && retex-combine --complete x.exr --texture ''
++ done | grep -v ^Wall
 = 1
 $ make_set x.exr 'name:Größe' && retex-combine --complete x.exr --texture ''
 > Größe=	40.0 % of the picture
 > Wall=	40.0 % of the picture
 
 # The values in the tables are those that the tools' own messages name.
-$ for option in layout filter control-mode control-data; do retex-render --$option '?' box.pov 2>&1 | sed 's/.*expected //; s/, not .*//; s/, / /g; s/ or / /' | tr ' ' '\n' >a.txt; retex-render --complete --$option '' | cut -f1 | cmp - a.txt && cat a.txt | tr '\n' ' '; done
+$ for option in layout filter control-mode control-data; do
++     retex-render --$option '?' box.pov 2>&1 | sed 's/.*expected //; s/, not .*//; s/, / /g; s/ or / /' |
++         tr ' ' '\n' >a.txt
++     retex-render --complete --$option '' | cut -f1 | cmp - a.txt && cat a.txt | tr '\n' ' '
++ done
 > footprints paper box gaussian unbiased halves biased biased unbiased
-$ retex-render --aov '?' box.pov 2>&1 | sed 's/.*expected //; s/, not .*//; s/, / /g' | tr ' ' '\n' >a.txt; retex-render --complete --aov '' | cut -f1 | cmp - a.txt
-$ for value in $(retex-render --complete --layout '' | cut -f1); do retex-render --layout $value box.pov --size 8x6 --spp 1 -t Floor -q -o /dev/null || echo $value; done
-$ for value in $(retex-combine --complete --texture:wrap= | cut -f1 | sed 's/.*=//'); do retex-combine room.exr --texture:wrap=$value Floor=rgb\(1,0,0\) -q -o /dev/null || echo $value; done
+$ retex-render --aov '?' box.pov 2>&1 | sed 's/.*expected //; s/, not .*//; s/, / /g' | tr ' ' '\n' >a.txt
+$ retex-render --complete --aov '' | cut -f1 | cmp - a.txt
+$ for value in $(retex-render --complete --layout '' | cut -f1); do
++     retex-render --layout $value box.pov --size 8x6 --spp 1 -t Floor -q -o /dev/null || echo $value
++ done
+$ for value in $(retex-combine --complete --texture:wrap= | cut -f1 | sed 's/.*=//'); do
++     retex-combine room.exr --texture:wrap=$value Floor=rgb\(1,0,0\) -q -o /dev/null || echo $value
++ done
 
 # retex: commands, and what their tools say.
-$ retex --complete '' | cut -f1 | tr '\n' ' '; retex --complete --; retex --complete help '' | cut -f1 | tr '\n' ' '
-> import render denoise sample combine pack info diff serve studio help --help	print this help and exit
+$ retex --complete '' | cut -f1 | tr '\n' ' '
+> import render denoise sample combine pack info diff serve studio help
+$ retex --complete --
+> --help	print this help and exit
 > --version	print the version and exit
+$ retex --complete help '' | cut -f1 | tr '\n' ' '
 > import render denoise sample combine pack info diff serve studio
-$ retex --complete combine room.exr --texture ''; retex --complete combine ''; retex --complete nonsense ''; retex --complete help combine ''
+$ retex --complete combine room.exr --texture ''
 > Floor=	40.0 % of the picture
 > Wall=	40.0 % of the picture
+$ retex --complete combine ''
 > :files		exr retex
+$ retex --complete nonsense ''
+$ retex --complete help combine ''
 
 # Installed, in real shells. For each line: what the key of completion makes of it, and all candidates.
-$ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr && find 'a root/usr/share' -path '*complet*' ! -type d -o -path '*/zsh/*' ! -type d | sort
+$ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr &&
++     find 'a root/usr/share' -path '*complet*' ! -type d -o -path '*/zsh/*' ! -type d | sort
 > a root/usr/share/bash-completion/completions/retex
 > a root/usr/share/bash-completion/completions/retex-combine
 > a root/usr/share/bash-completion/completions/retex-denoise
@@ -242,6 +297,13 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" fish "$PWD/a root/usr/share/fish/vendor
 > retex-combine named.exr --texture A: A plain wall=
 
 # bash-completion finds the file by the command's name, also of a program that is called by its path.
-$ XDG_DATA_DIRS="$PWD/a root/usr/share" bash --norc -c '. /usr/share/bash-completion/bash_completion; _completion_loader retex-pack; complete -p retex-pack; _completion_loader '"$(command -v retex-info)"'; complete -p retex-info'
+$ cat >load.bash <<'END'
++ . /usr/share/bash-completion/bash_completion
++ _completion_loader retex-pack
++ complete -p retex-pack
++ _completion_loader "$(command -v retex-info)"
++ complete -p retex-info
++ END
+$ XDG_DATA_DIRS="$PWD/a root/usr/share" bash --norc load.bash
 > complete -F _retex retex-pack
 > complete -F _retex retex-info
