@@ -4,7 +4,8 @@
 $ skip-unless ! nm -D "$(dirname "$(command -v retex-diff)")/../lib/libretex.so.2" | grep -q 'asan\|tsan'
 $ "$TESTS/../install/stage.sh" install "$PWD/a stage" '/opt/retex tools'
 $ make_set room.exr 48 32 3
-$ oiiotool --pattern fill:topleft=1,0,0:topright=0,1,0:bottomleft=0,0,1:bottomright=1,1,1 16x16 3 -d uint8 -o wood.png -o wood.tif
+$ oiiotool --pattern fill:topleft=1,0,0:topright=0,1,0:bottomleft=0,0,1:bottomright=1,1,1 16x16 3 -d uint8 -o wood.png \
++     -o wood.tif
 $ retex-combine -q room.exr --texture Floor=wood.png -o expected.exr
 
 # The staged tools run, and find what they need, wherever the folder is.
@@ -17,10 +18,13 @@ $ PKG_CONFIG_PATH='a stage/opt/retex tools/lib/pkgconfig' pkg-config --modversio
 $ "$TESTS/../install/compile.sh" 'a stage/opt/retex tools/lib/pkgconfig' "$TESTS/../install/outsider.c" outsider
 $ readelf -d outsider | grep -c 'NEEDED.*libretex.so.2'
 > 1
-$ LD_LIBRARY_PATH='a stage/opt/retex tools/lib' ./outsider room.exr Floor=wood.png actual.exr && cmp expected.exr actual.exr
+$ LD_LIBRARY_PATH='a stage/opt/retex tools/lib' ./outsider room.exr Floor=wood.png actual.exr &&
++     cmp expected.exr actual.exr
 
 # A TIFF needs the bridge, which is beside the library, and nowhere else.
-$ mkdir elsewhere && cd elsewhere && LD_LIBRARY_PATH='../a stage/opt/retex tools/lib' ../outsider ../room.exr Floor=../wood.tif ../actual.exr && cmp ../expected.exr ../actual.exr
+$ mkdir elsewhere && cd elsewhere &&
++     LD_LIBRARY_PATH='../a stage/opt/retex tools/lib' ../outsider ../room.exr Floor=../wood.tif ../actual.exr &&
++     cmp ../expected.exr ../actual.exr
 $ mv 'a stage/opt/retex tools/lib/libretex-oiio.so' away.so
 $ LD_LIBRARY_PATH='a stage/opt/retex tools/lib' ./outsider room.exr Floor=wood.tif actual.exr
 ! outsider: wood.tif: this needs OpenImageIO, which cannot be loaded: libretex-oiio.so: cannot open shared object file: No such file or directory
@@ -33,7 +37,8 @@ $ "$TESTS/../install/compile.sh" 'moved here/lib/pkgconfig' "$TESTS/../install/o
 $ readelf -d outsider-static | grep -c 'NEEDED.*libretex.so.2'
 > 0
 = 1
-$ RETEX_BRIDGE='moved here/lib/libretex-oiio.so' ./outsider-static room.exr Floor=wood.tif actual.exr && cmp expected.exr actual.exr
+$ RETEX_BRIDGE='moved here/lib/libretex-oiio.so' ./outsider-static room.exr Floor=wood.tif actual.exr &&
++     cmp expected.exr actual.exr
 
 # The library exports what the public headers declare, under a version for all and one for hosts, and nothing else.
 $ python3 "$TESTS/../install/symbols.py" 'a stage/opt/retex tools/lib/libretex.so.2' 'a stage/opt/retex tools/include'
@@ -42,7 +47,9 @@ $ python3 "$TESTS/../install/symbols.py" 'a stage/opt/retex tools/lib/libretex.s
 
 # The plugins find the bridge, which lies two folders above them.
 $ retex-pack -q room.exr -o room.retex
-$ OIIO_LIBRARY_PATH='a stage/opt/retex tools/lib/retex/plugins' oiiotool 'room.retex?Floor=wood.tif' -o plugin.exr && retex-combine -q room.retex --texture Floor=wood.tif -o pack.exr && retex-diff pack.exr plugin.exr --fail-abs 0.0002 >/dev/null && echo same
+$ OIIO_LIBRARY_PATH='a stage/opt/retex tools/lib/retex/plugins' oiiotool 'room.retex?Floor=wood.tif' -o plugin.exr &&
++     retex-combine -q room.retex --texture Floor=wood.tif -o pack.exr &&
++     retex-diff pack.exr plugin.exr --fail-abs 0.0002 >/dev/null && echo same
 > same
 
 # The unit runs the program that is installed.
