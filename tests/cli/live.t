@@ -1,12 +1,24 @@
 # A scene that stays open: pictures of its views are those of renders.
-$ printf '%s\n' '#version 3.7; #declare Cam_A = camera { location <1,2,-4> look_at <0,.5,0> angle 50 } #declare Floor = texture { pigment { checker rgb 1 rgb .2 } } camera { location <0,1,-5> look_at <0,.5,0> right x*1.4 angle 40 } light_source { <3,5,-5> 1 } plane { y, 0 texture { Floor } } sphere { <0,.5,0>, .5 pigment { rgb <1,.3,.1> } } box { <-1.5,0,0>, <-.8,.6,.7> pigment { rgb .5 } rotate y*20 } box { <.8,0,0>, <1.5,.6,.7> pigment { rgb .4 } rotate y*20 } sphere { <1.2,2,1>, .3 pigment { rgb 1 } finish { emission 3 } }' >live.pov
-$ /usr/bin/python3 -B "$TESTS/live.py" same_as_render
+$ cat >live.pov <<'END'
++ #version 3.7;
++ #declare Cam_A = camera { location <1,2,-4> look_at <0,.5,0> angle 50 }
++ #declare Floor = texture { pigment { checker rgb 1 rgb .2 } }
++ camera { location <0,1,-5> look_at <0,.5,0> right x*1.4 angle 40 }
++ light_source { <3,5,-5> 1 }
++ plane { y, 0 texture { Floor } }
++ sphere { <0,.5,0>, .5 pigment { rgb <1,.3,.1> } }
++ box { <-1.5,0,0>, <-.8,.6,.7> pigment { rgb .5 } rotate y*20 }
++ box { <.8,0,0>, <1.5,.6,.7> pigment { rgb .4 } rotate y*20 }
++ sphere { <1.2,2,1>, .3 pigment { rgb 1 } finish { emission 3 } }
++ END
+% check() { /usr/bin/python3 -B "$TESTS/live.py" "$@"; }
+$ check same_as_render
 > [1, 2, 4, 8, 10, 20] True True True
 > [1, 2, 4, 8, 10, 20] True True True
 > [1, 2, 4, 8, 10, 20] True True True
 > [1, 2, 4, 8, 10, 20] True True True
 > (0, b'')
-$ /usr/bin/python3 -B "$TESTS/live.py" denoised
+$ check denoised
 > {'error': 'there is no picture of two samples that could be denoised', 'bytes': 0}
 > {'error': 'there is no picture of two samples that could be denoised', 'bytes': 0}
 > [1, 2, 4, 8, 16, 32] True
@@ -14,7 +26,7 @@ $ /usr/bin/python3 -B "$TESTS/live.py" denoised
 > [2, 8, 32] True
 > True
 > {'error': 'there is no request `look`', 'bytes': 0} (0, b'')
-$ /usr/bin/python3 -B "$TESTS/live.py" surfaces
+$ check surfaces
 > material #5  True True
 > material #1 Floor True True
 > material #2  True True
@@ -38,14 +50,14 @@ $ /usr/bin/python3 -B "$TESTS/live.py" surfaces
 > level #4/level:4  True True
 > level #4/level:2  True True
 > nothing
-$ /usr/bin/python3 -B "$TESTS/live.py" levels
+$ check levels
 > 82 82 0 True
 > True (0, b'')
-$ /usr/bin/python3 -B "$TESTS/live.py" uv
+$ check uv
 > [{'target': 'Floor', 'unit': [0.01, 0.01]}, {'target': 'Box', 'unit': [1, 1]}] [0, 1, 2]
 > Floor True
 > Box True
-$ /usr/bin/python3 -B "$TESTS/live.py" lines
+$ check lines
 > ({'error': 'expected WIDTH HEIGHT, not `3 x`', 'bytes': 0}, b'')
 > ({'error': 'expected WIDTH HEIGHT, not `0 5`', 'bytes': 0}, b'')
 > ({'error': 'expected 1 to 1048576 samples, not `0`', 'bytes': 0}, b'')
@@ -64,24 +76,31 @@ $ /usr/bin/python3 -B "$TESTS/live.py" lines
 > stopped True
 > followed 1 True
 > 0
-$ /usr/bin/python3 -B "$TESTS/live.py" endings
+$ check endings
 > -15
 > -13 b''
+
+# What is refused.
 $ for c in Cam_B 1,2:3 1,2,3:4,5,6:0 1,2,3:1,2,3; do retex-render --camera $c live.pov -o x.exr; done
-! retex-render: error: live.pov:2:1: no camera is declared as `Cam_B`; is Cam_A meant?
+! retex-render: error: live.pov:11:1: no camera is declared as `Cam_B`; is Cam_A meant?
 ! retex-render: error: --camera: camera `1,2:3`: expected X,Y,Z:X,Y,Z[:ANGLE], where it is, what it looks at, and an angle from 1 to 170 degrees
 ! retex-render: error: --camera: camera `1,2,3:4,5,6:0`: expected X,Y,Z:X,Y,Z[:ANGLE], where it is, what it looks at, and an angle from 1 to 170 degrees
 ! retex-render: error: --camera: camera `1,2,3:1,2,3`: it is where it looks at
 = 2
-$ retex-render -q --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,0 live.pov --shard 1/1 -o s.rows; retex-render --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,1 live.pov --merge s.rows -o x.exr
+$ retex-render -q --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,0 live.pov --shard 1/1 -o s.rows
+$ retex-render --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,1 live.pov --merge s.rows -o x.exr
 ! retex-render: error: s.rows is of another render: other options, another scene or build
 = 2
-$ for o in --list-targets --noise=1 '--crop 0,0,1,1' --denoise '--aov uv' '-o x.exr'; do retex-render --live $o live.pov </dev/null; done; retex-render --live --max-memory 1 live.pov </dev/null
+$ for o in --list-targets --noise=1 '--crop 0,0,1,1' --denoise '--aov uv' '-o x.exr'; do
++     retex-render --live $o live.pov </dev/null
++ done
 ! retex-render: error: --live cannot be combined with --list-targets
 ! retex-render: error: --live cannot be combined with --noise
 ! retex-render: error: --live cannot be combined with --crop
 ! retex-render: error: --live cannot be combined with --denoise
 ! retex-render: error: --live cannot be combined with --aov
 ! retex-render: error: --live goes to standard output: no -o
+= 2
+$ retex-render --live --max-memory 1 live.pov </dev/null
 ! retex-render: error: 640x457 pixels need 0.0 GB of memory, there are 0.0: render parts with --crop, or raise --max-memory
 = 2
