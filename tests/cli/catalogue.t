@@ -2,9 +2,14 @@
 $ make_set s.exr 48 32
 $ cp "$SCENES/textures/brick.jpg" .
 $ cp "$SCENES/textures/fans.jpg" oak.jpg
-$ echo 'exec retex-combine s.exr --batch ${TABLE:-t} --manifest m "$@"' >batch
-$ printf '%s\n' \
-+     'sed "s/\"seconds\": [0-9.]*/\"seconds\": S/; s/\"bytes\": [0-9]*/\"bytes\": B/; s/\"\(crc32\|set\)\": \"[0-9a-f ]*\"/\"\1\": \"C\"/g; s/\.jpg\([^\"]*\) [0-9a-f]* [0-9]*\"/.jpg\1 C\"/g; s/, [0-9.]* s$/, S/; s/[0-9]* bytes instead of [0-9]*/N bytes instead of M/"' >masked
+% batch() { retex-combine s.exr --batch t --manifest m "$@"; }
+% many() { retex-combine s.exr --batch many --manifest m "$@"; }
+% # What differs from run to run has a letter: seconds, bytes, checksums.
+% masked() {
+%     sed -e 's/"seconds": [0-9.]*/"seconds": S/' -e 's/"bytes": [0-9]*/"bytes": B/' \
+%         -e 's/"\(crc32\|set\)": "[0-9a-f ]*"/"\1": "C"/g' -e 's/\.jpg\([^"]*\) [0-9a-f]* [0-9]*"/.jpg\1 C"/g' \
+%         -e 's/, [0-9.]* s$/, S/' -e 's/[0-9]* bytes instead of [0-9]*/N bytes instead of M/'
+% }
 $ cat >t <<'END'
 + output,floor,Wall
 + a.png,brick.jpg,
@@ -14,36 +19,36 @@ $ cat >t <<'END'
 + END
 
 # What is planned, made, found good, and kept.
-$ sh batch --plan | sed 's/about .*//'
+$ batch --plan | sed 's/about .*//'
 > rows 1 to 4 of 4: 4 to make, 0 kept
 > to make:
 $ ls m
 ! ls: cannot access 'm': No such file or directory
 = 2
-$ sh batch --plan | grep -c 'by 4 trial pictures of 2\..* kB'
+$ batch --plan | grep -c 'by 4 trial pictures of 2\..* kB'
 > 1
-$ sh batch --texture wall=brick.jpg --quality 80 2>&1 | sh masked
+$ batch --texture wall=brick.jpg --quality 80 2>&1 | masked
 > retex-combine: a.png: Floor <- brick.jpg, Wall <- brick.jpg, 48 x 32, S
 > retex-combine: b.png: Floor <- oak.jpg, Wall <- rgb(0.5,0.25,0.125), 48 x 32, S
 > retex-combine: c.jpg: Wall <- oak.jpg, 48 x 32, S
 > retex-combine: d.png: Wall <- brick.jpg, 48 x 32, S
 > retex-combine: 4 pictures, S
-$ sh masked <m
+$ masked <m
 > {"output": "a.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Floor": "brick.jpg C", "wall": "brick.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
 > {"output": "b.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Floor": ":scale=2,2:rotate=30 oak.jpg C", "Wall": "rgb(0.5,0.25,0.125)"}, "bytes": B, "crc32": "C", "seconds": S}
 > {"output": "c.jpg", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Wall": "oak.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
 > {"output": "d.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"wall": "brick.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
 $ rm m
-$ sh batch -q
+$ batch -q
 $ wc -l <m
 > 4
-$ sh batch --verify
+$ batch --verify
 > 4 of 4 pictures good
-$ sh batch --resume --progress json 2>&1 | sh masked
+$ batch --resume --progress json 2>&1 | masked
 > {"total": 4, "made": 0, "failed": 0, "kept": 4, "seconds": S}
-$ sh batch --resume 2>&1 | sh masked
+$ batch --resume 2>&1 | masked
 > retex-combine: 0 pictures, 4 kept, S
-$ sh batch --plan --resume
+$ batch --plan --resume
 > rows 1 to 4 of 4: 0 to make, 4 kept
 $ wc -l <m
 > 4
@@ -51,9 +56,12 @@ $ wc -l <m
 # The manifest's checksums are those that zlib computes.
 $ cat >../check.py <<'END'
 + import json, os, zlib
-+ def crc(name): return f"{zlib.crc32(open(name, chr(114) + chr(98)).read()):08x}"
-+ for r in map(json.loads, open("m")):
-+  print(r["output"], r["crc32"] == crc(r["output"]), r["bytes"] == os.path.getsize(r["output"]), r["set"] == crc("s.exr") + " " + str(os.path.getsize("s.exr")))
++ def crc(name):
++     return f"{zlib.crc32(open(name, 'rb').read()):08x}"
++ for row in map(json.loads, open("m")):
++     name = row["output"]
++     source = crc("s.exr") + " " + str(os.path.getsize("s.exr"))
++     print(name, row["crc32"] == crc(name), row["bytes"] == os.path.getsize(name), row["set"] == source)
 + END
 $ /usr/bin/python3 ../check.py
 > a.png True True True
@@ -69,34 +77,34 @@ $ sed -i 's/^d.png/d.png,"rgb(1,1,1)"/' t
 $ cp a.png e.png
 $ echo e.png >>t
 $ find . -type f -printf '%p %T@ %s\n' | sort >../before
-$ sh batch --verify >../verdict
+$ batch --verify >../verdict
 = 1
-$ sh masked <../verdict
+$ masked <../verdict
 > a.png: damaged: N bytes instead of M
 > b.png: missing
 > d.png: stale: its row or an image of it has changed
 > e.png: unknown
 > 1 of 5 pictures good; 1 missing, 1 unknown, 1 stale, 1 damaged
-$ sh batch --verify -q --report ../report
+$ batch --verify -q --report ../report
 = 1
 $ grep -c '"status": "good"\|"status": "failed"' ../report
 > 2
 $ find . -type f -printf '%p %T@ %s\n' | sort | diff ../before -
-$ sh batch --resume --dry-run
+$ batch --resume --dry-run
 > a.png: Floor <- brick.jpg
 > b.png: Floor <- oak.jpg, Wall <- rgb(0.5,0.25,0.125)
 > d.png: Floor <- rgb(1,1,1)
 > e.png: original textures
-$ sh batch --resume --plan | sed 's/about .*//'
+$ batch --resume --plan | sed 's/about .*//'
 > rows 1 to 5 of 5: 4 to make, 1 kept (1 missing, 1 unknown, 1 stale, 1 damaged)
 > to make:
-$ sh batch --resume 2>&1 | sh masked
+$ batch --resume 2>&1 | masked
 > retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
 > retex-combine: b.png: Floor <- oak.jpg, Wall <- rgb(0.5,0.25,0.125), 48 x 32, S
 > retex-combine: d.png: Floor <- rgb(1,1,1), 48 x 32, S
 > retex-combine: e.png: original textures, 48 x 32, S
 > retex-combine: 4 pictures, 1 kept, S
-$ sh batch --verify
+$ batch --verify
 > 5 of 5 pictures good
 $ wc -l <m
 > 8
@@ -118,20 +126,20 @@ $ for f in x.png y.jpg z.exr w.tif; do
 
 # A picture with the right size is damaged: only its checksum tells.
 $ printf x | dd of=a.png bs=1 seek=100 conv=notrunc 2>/dev/null
-$ sh batch --verify
+$ batch --verify
 > a.png: damaged: its checksum is wrong
 > 4 of 5 pictures good; 1 damaged
 = 1
-$ sh batch --resume 2>&1 | sh masked
+$ batch --resume 2>&1 | masked
 > retex-combine: 0 pictures, 5 kept, S
-$ sh batch --resume --verify 2>&1 | sh masked
+$ batch --resume --verify 2>&1 | masked
 > retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
 > retex-combine: 1 picture, 4 kept, S
-$ sh batch --verify
+$ batch --verify
 > 5 of 5 pictures good
 # Other sources: the set, an image that keeps its name, the options, the samples, the version; an image that is gone.
 $ make_set s.exr 48 32 2
-$ sh batch --verify | cut -c 1-60
+$ batch --verify | cut -c 1-60
 > a.png: stale: the set has changed
 > b.png: stale: the set has changed
 > c.jpg: stale: the set has changed
@@ -140,18 +148,18 @@ $ sh batch --verify | cut -c 1-60
 > 0 of 5 pictures good; 5 stale
 $ cp ../good/s.exr .
 $ cp brick.jpg oak.jpg
-$ sh batch --verify
+$ batch --verify
 > b.png: stale: its row or an image of it has changed
 > c.jpg: stale: its row or an image of it has changed
 > 3 of 5 pictures good; 2 stale
 = 1
 $ cp ../good/oak.jpg .
-$ sh batch --verify --quality 80 | tail -2
+$ batch --verify --quality 80 | tail -2
 > e.png: stale: the options have changed
 > 0 of 5 pictures good; 5 stale
-$ sh batch --verify --depth 8 | tail -1
+$ batch --verify --depth 8 | tail -1
 > 0 of 5 pictures good; 5 stale
-$ sh batch --verify --texture wall=brick.jpg
+$ batch --verify --texture wall=brick.jpg
 > a.png: stale: its row or an image of it has changed
 > d.png: stale: its row or an image of it has changed
 > e.png: stale: its row or an image of it has changed
@@ -166,37 +174,25 @@ $ retex-combine s.exr --batch t --manifest m7 --verify | tail -2
 > e.png: stale: another version of the program made it
 > 0 of 5 pictures good; 5 stale
 $ rm oak.jpg
-$ sh batch --verify
+$ batch --verify
 > b.png: stale: cannot read oak.jpg: No such file or directory
 > c.jpg: stale: cannot read oak.jpg: No such file or directory
 > 3 of 5 pictures good; 2 stale
 = 1
-$ sh batch --resume
+$ batch --resume
 ! retex-combine: error: t:3: cannot read oak.jpg: No such file or directory
 ! retex-combine: error: t:4: cannot read oak.jpg: No such file or directory
 = 2
 $ cp ../good/oak.jpg .
-$ sh batch --verify
+$ batch --verify
 > 5 of 5 pictures good
 
 # Parts of a table make the files that one process makes, each picture once, and share a manifest or have their own.
 $ mkdir ../parts
-$ cp s.exr t batch masked *.jpg ../parts
+$ cp s.exr t *.jpg ../parts
 $ rm ../parts/c.jpg
-$ cd ../parts
-+ for k in 1 2 3; do sh batch --shard $k/3 2>&1 | sh masked; done
-+ for f in [a-e].???; do cmp $f ../here/$f; done
-+ sh batch --verify
-+ rm -f [a-e].??? m
-+ for k in 2 1; do retex-combine -q s.exr --batch t --rows 2-5 --shard $k/2 --manifest m$k; done
-+ ls [a-e].*
-+ cat m1 m2 >m
-+ sh batch --verify
-+ sh batch --rows 2-5 --verify
-+ sh batch --rows 5-5 --shard 1/2 --plan
-+ sh batch --rows 2-5 --shard 3/3 --dry-run
-+ sh batch --shard 7/9 --resume --report ../report 2>&1 | sh masked
-+ grep '"row"' ../report | sh masked
+% cd ../parts
+$ for k in 1 2 3; do batch --shard $k/3 2>&1 | masked; done
 > retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
 > retex-combine: 1 picture, S
 > retex-combine: b.png: Floor <- oak.jpg, Wall <- rgb(0.5,0.25,0.125), 48 x 32, S
@@ -205,60 +201,75 @@ $ cd ../parts
 > retex-combine: d.png: Floor <- rgb(1,1,1), 48 x 32, S
 > retex-combine: e.png: original textures, 48 x 32, S
 > retex-combine: 2 pictures, S
+$ for f in [a-e].???; do cmp $f ../here/$f; done
+$ batch --verify
 > 5 of 5 pictures good
+$ rm -f [a-e].??? m
+$ for k in 2 1; do retex-combine -q s.exr --batch t --rows 2-5 --shard $k/2 --manifest m$k; done
+$ ls [a-e].*
 > b.png
 > c.jpg
 > d.png
 > e.png
+$ cat m1 m2 >m
+$ batch --verify
 > a.png: missing
 > 4 of 5 pictures good; 1 missing
+= 1
+$ batch --rows 2-5 --verify
 > 4 of 4 pictures good
+$ batch --rows 5-5 --shard 1/2 --plan
 > 0 to make, 0 kept
+$ batch --rows 2-5 --shard 3/3 --dry-run
 > d.png: Floor <- rgb(1,1,1)
 > e.png: original textures
+$ batch --shard 7/9 --resume --report ../report 2>&1 | masked
 > retex-combine: 0 pictures, 0 kept, S
+$ grep '"row"' ../report | masked
 # Two processes with rows in common: the second is refused before it makes anything. Killed, the first leaves them free.
+% cd ../here
 $ {
 +     echo output,floor
 +     for k in $(seq 4000); do echo "out/$k.png,\"rgb(0.$k,0.5,0)\""; done
 + } >many
-$ TABLE=many sh batch -q --mkdir &
+$ retex-combine s.exr --batch many --manifest m -q --mkdir &
 + until [ -e out/20.png ]; do sleep .02; done
 + kill -STOP $!
-+ TABLE=many sh batch --shard 3/3 --mkdir
-+ TABLE=many sh batch --rows 1-1 --mkdir --resume
-+ sh batch --rows 1-1 -q
++ many --shard 3/3 --mkdir
++ many --rows 1-1 --mkdir --resume
++ batch --rows 1-1 -q
 + kill -KILL $!
 + wait $! 2>/dev/null
 ! retex-combine: error: another process with m makes some of these rows
 ! retex-combine: error: another process with m makes some of these rows
 = 137
 $ n=$(ls out | grep -c 'png$')
-+ TABLE=many sh batch --resume --mkdir --report r -q
++ many --resume --mkdir --report r -q
 + kept=$(grep -c '"status": "kept"' r)
 + test $kept -gt 18 && test $n -ge $kept && test $n -lt 4000 && echo "kept what was made"
 > kept what was made
 $ rm -f out/*.png.*
-$ TABLE=many make_peak ../peak sh batch --verify
+$ make_peak ../peak retex-combine s.exr --batch many --manifest m --verify
 > 4000 of 4000 pictures good
 $ awk '{ print ($1 < 64 ? "little" : $1) }' ../peak
 > little
-$ TABLE=many sh batch --resume 2>&1 | sh masked
+$ many --resume 2>&1 | masked
 > retex-combine: 0 pictures, 4000 kept, S
 $ ls out | wc -l
 > 4000
-# A line that was cut off costs its picture only; what is appended begins on a line of its own. The last line of a picture counts.
+# A line that was cut off costs its picture only; what is appended begins on a line of its own. The last line of a
+# picture counts.
 $ rm -r m out
-$ sh batch -q
+$ batch -q
 $ truncate -s -30 m
-$ sh batch --verify
+$ batch --verify
 > e.png: unknown
 > 4 of 5 pictures good; 1 unknown
 = 1
-$ sh batch --resume 2>&1 | sh masked
+$ batch --resume 2>&1 | masked
 > retex-combine: e.png: original textures, 48 x 32, S
 > retex-combine: 1 picture, 4 kept, S
-$ sh batch --verify
+$ batch --verify
 > 5 of 5 pictures good
 $ wc -l <m
 > 6
@@ -304,9 +315,6 @@ $ for o in --resume \
 +     '--rows 0-1' '--rows 3-2' '--rows 2' '--rows 1-6' '--shard 0/2' '--shard 3/2' '--shard 1-2' '--shard 1/2x'; do
 +     retex-combine s.exr --batch t $o
 + done
-+ for o in '--manifest m' --resume --verify --plan '--rows 1-2' '--shard 1/2'; do
-+     retex-combine s.exr -o x.png $o
-+ done
 ! retex-combine: error: --resume needs the pictures' checksums: --manifest
 ! retex-combine: error: --verify needs the pictures' checksums: --manifest
 ! retex-combine: error: --plan, --dry-run and --verify without --resume exclude each other
@@ -320,6 +328,10 @@ $ for o in --resume \
 ! retex-combine: error: --shard: expected I/N, I from 1 to N, not '3/2'
 ! retex-combine: error: --shard: expected I/N, not '1-2'
 ! retex-combine: error: --shard: expected I/N, not '1/2x'
+= 2
+$ for o in '--manifest m' --resume --verify --plan '--rows 1-2' '--shard 1/2'; do
++     retex-combine s.exr -o x.png $o
++ done
 ! retex-combine: error: --manifest needs a table of pictures: --batch
 ! retex-combine: error: --resume needs a table of pictures: --batch
 ! retex-combine: error: --verify needs a table of pictures: --batch
