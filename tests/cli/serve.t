@@ -1,39 +1,61 @@
 # retex-serve: its answers beside retex-combine's pictures, and what it refuses; serve.py has the checks.
-$ mkdir rooms textures; make_set rooms/raw.exr 64 48 denoise; retex-pack -q rooms/raw.exr -o rooms/small.retex; make_set other.exr 64 48; retex-pack -q other.exr --quality 50 -o second.retex; cp "$SCENES/textures/brick.jpg" textures; cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg; cp textures/oak.jpg outside.jpg
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve pictures parts conditions
+% serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }
+$ mkdir rooms textures
+$ make_set rooms/raw.exr 64 48 denoise
+$ retex-pack -q rooms/raw.exr -o rooms/small.retex
+$ make_set other.exr 64 48
+$ retex-pack -q other.exr --quality 50 -o second.retex
+$ cp "$SCENES/textures/brick.jpg" textures
+$ cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg
+$ cp textures/oak.jpg outside.jpg
+$ serve pictures parts conditions
 > pictures
 > parts
 > conditions
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced folders contents refused lists metrics
+$ serve replaced folders contents refused lists metrics
 > replaced
 > folders
 > contents
 > refused
 > lists
 > metrics
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together texts crowd slow deadline end
+$ serve together texts crowd slow deadline end
 > together
 > texts
 > crowd
 > slow
 > deadline
 > end
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir presets; retex-combine -q rooms/raw.exr --texture:rotate=30 Floor=textures/oak.jpg --texture Wall=tan --exposure .5 --view Filmic -o x.png --save-preset presets/warm.json; cp presets/warm.json outside.json; ln -s ../outside.json presets/outside.json; echo broken >presets/broken.json; echo '{"retex-preset": 1, "edit": "Floor=gone.jpg"}' >presets/gone.json; cp presets/warm.json presets/.x.json; serve developed presets
+$ mkdir presets
+$ retex-combine -q rooms/raw.exr --texture:rotate=30 Floor=textures/oak.jpg --texture Wall=tan --exposure .5 \
++     --view Filmic -o x.png --save-preset presets/warm.json
+$ cp presets/warm.json outside.json
+$ ln -s ../outside.json presets/outside.json
+$ echo broken >presets/broken.json
+$ echo '{"retex-preset": 1, "edit": "Floor=gone.jpg"}' >presets/gone.json
+$ cp presets/warm.json presets/.x.json
+$ serve developed presets
 > developed
 > presets
 
 # Images that clients send.
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads documented off heads
+$ mkdir uploads
+$ touch uploads/.incoming-9.jpg
+$ make_picture wide.png size=1200x1000
+$ make_picture third.png size=8x8
+$ serve uploads documented off heads
 > uploads
 > documented
 > off
 > heads
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir strange; python3 "$TESTS/decoder.py"; serve decoders hurried
+$ mkdir strange
+$ python3 "$TESTS/decoder.py"
+$ serve decoders hurried
 > decoders
 > hurried
 
 # What one client may have, and what it may tell.
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve shared proxied clients crawling
+$ serve shared proxied clients crawling
 > shared
 > proxied
 > clients
