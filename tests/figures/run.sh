@@ -9,7 +9,7 @@
 # made is not made again, and one that was interrupted goes on where it stopped, as far as its script keeps what it has
 # rendered. What another build rendered is removed first, except converged pictures, which are kept by what they depend
 # on, in build/truth, and those of an ordinary run in tests/fidelity/truths. A page that takes twice its minutes is
-# stopped. Last, the texts take over the new figures (quote.py), and a table tells how long each page took.
+# stopped. Last, the texts take over the new figures (quote.py).
 set -eu
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build} full=${FULL:-} python=${PYTHON:-/usr/bin/python3}
@@ -36,8 +36,8 @@ for page in $pages; do
         echo "figures: there is no page $page; see tests/figures/pages.txt" >&2
         exit 2
     }
-    target=$(column 2) minutes=$(column 3) less=$(column 6) flags="PAGES=$page" truths=tests/fidelity/truths
-    if [ -n "$full" ]; then less='' flags="$flags FULL=1" minutes=100000 truths=''; fi
+    target=$(column 2) minutes=$(column 3) less=$(column 6) flags="PAGES=$page" keep=1
+    if [ -n "$full" ]; then less='' flags="$flags FULL=1" minutes=100000 keep=; fi
     if [ -e "$work/$page.done" ]; then
         echo "figures: docs/$page.md is of this build"
         continue
@@ -46,26 +46,26 @@ for page in $pages; do
     begun=$(date +%s) ended=0
     # shellcheck disable=SC2086 # the table quotes its words
     eval timeout "$((2 * minutes))m" env -u MAKEFLAGS -u MFLAGS $less FIGURES_COMMAND='"make figures $flags"' \
-        FIGURES_TRUTHS="$truths" BENCH_DOCS=1 make BUILD="$build" "$target" >"$work/$page.log" 2>&1 || ended=$?
+        KEEP_TRUTHS="$keep" BENCH_DOCS=1 make BUILD="$build" "$target" >"$work/$page.log" 2>&1 || ended=$?
     took=$(awk -v s=$(($(date +%s) - begun)) 'BEGIN { printf "%.1f", s / 60 }')
     if [ "$(programs)" != "$made_by" ]; then
         echo "figures: the programs were built anew while docs/$page.md was made: it is of no single build" >&2
         exit 1
     fi
     case $ended in
-    0) echo "$took" >"$work/$page.done" ;;
+    0)
+        : >"$work/$page.done"
+        echo "figures: docs/$page.md took $took minutes"
+        ;;
     124)
         echo "figures: $page was stopped after twice its $minutes minutes; see $work/$page.log" >&2
         status=1
         ;;
     *)
-        echo "figures: $page failed; see $work/$page.log" >&2
+        echo "figures: $page failed after $took minutes; see $work/$page.log" >&2
         status=1
         ;;
     esac
-    echo "$page $minutes $took $ended" >>"$work/times"
 done
 "$python" tests/figures/quote.py --update
-echo 'figures: page, minutes of pages.txt, minutes taken, exit status'
-cat "$work/times" 2>/dev/null || :
 exit $status

@@ -359,12 +359,6 @@ OIIO::ImageSpec describe(const RetexBridgePlan &plan)
     return spec;
 }
 
-// Whether OpenImageIO chooses what it writes by the ending of the file's name.
-bool goes_by_name(const std::string &format)
-{
-    return format == "heif";
-}
-
 void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink &sink)
 {
     if (const Encoder *own = find_encoder(plan.format)) {
@@ -385,8 +379,7 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
         if (!is_written || (!why.empty() && why.find("Exif") == std::string::npos))
             throw Failure(RETEX_EIO, "cannot write: " + why.substr(0, why.find('\n')));
     };
-    if (!goes_by_name(plan.format))
-        write_to(memory_file.path());
+    write_to(memory_file.path());
     if (memory_file.empty()) {
         TemporaryFile named(ending(plan.path));
         write_to(named.path);
