@@ -85,6 +85,13 @@ def post(column, size, what, scene="living-room", targets="Floor"):
     return one("post", column, kind="time", scene=scene, targets=targets, size=size, what=what)
 
 
+def post_sizes_of(unit=""):
+    """The picture whose sizes the page has: pixels, and samples with their unit, where it is given."""
+    with open(os.path.join(DOCS, "post.md"), encoding="utf-8") as file:
+        pixels, samples = re.search(r"Megabytes on disk at (\w+), (\d+) samples", file.read()).groups()
+    return f"{pixels}, {samples} {unit}" if unit else pixels
+
+
 def post_seconds(size, what):
     return f"{post('wall_s', size, what):.2f} s"
 
@@ -214,6 +221,11 @@ def serve_number(what, name, digits):
     return f"{float(served(what, name)):.{int(digits)}f}"
 
 
+def serve_size():
+    """Pixels of the large room's pictures."""
+    return served("large", "size")
+
+
 def serve_rate(what):
     """New pictures a second of one core."""
     return f"{1000 / float(served(what, 'processor_ms')):.0f}"
@@ -229,11 +241,11 @@ def serve_measured():
     return served("measured", "by")
 
 
-FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size,
+FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size, post_sizes_of,
                                    post_seconds, post_memory, post_variants, catalogue_rate, overhead, overhead_of, paper_size, paper_psnr,
                                    paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
                                    lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles, serve_cost, serve_bytes,
-                                   serve_number, serve_rate, serve_clients_rate, serve_measured, lamps_pack)}
+                                   serve_number, serve_size, serve_rate, serve_clients_rate, serve_measured, lamps_pack)}
 
 
 def figure(name):

@@ -19,6 +19,7 @@ MOST_OF_EXR = {"lossless": 0.6, "lossless-rendered": 0.6}
 EDITS = ["one", "two"]
 SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
 LARGE, SMALL = "4096x3840", "640x640"
+PAPER_SIZE = "1920x1080"
 
 ROWS = {
     "pack-jpg": "pack to JPEG",
@@ -205,11 +206,12 @@ def of_exr(files, what):
     return None if not exr or what.startswith("control") else files[what]["bytes"] / exr["bytes"]
 
 
-def size_goals(stored):
-    """More lines of the same table: sizes of the default layout where it was measured."""
+def size_goals(stored, size):
+    """More lines of the same table: sizes of the default layout where it was measured. Megabytes are of the paper's
+    pictures."""
     stored = [(key, files) for key, files in stored.items() if key[2]]
     chosen = [(key, files) for key, files in stored if key[1] == "footprints"] or stored
-    for what, limits in MOST_MEGABYTES.items():
+    for what, limits in MOST_MEGABYTES.items() if size == PAPER_SIZE else ():
         for edit, most in zip(EDITS, limits):
             size_goal(f"{STORED[what]}, {edit} target{'s' if edit == 'two' else ''}: at most {most} MB", most, "MB",
                       {key: files[what]["bytes"] / 1e6 for key, files in chosen if key[2] == edit and what in files})
@@ -319,7 +321,7 @@ def main(records, table, head, size, spp, control_spp):
     turns = f"{turns} times, every other turn backwards" if turns > 1 else "once"
     print(INTRODUCTION.format(head=head, turns=turns), end="")
     goals(cases)
-    size_goals(stored)
+    size_goals(stored, size)
     against_paper(cases)
     for case in cases.values():
         section(case)

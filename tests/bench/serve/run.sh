@@ -24,6 +24,7 @@ done
     "$work/costs.csv" >&2
 {
     cat "$work/costs.csv"
+    echo "large,size,${BENCH_SIZE:-1920x1080}"
     echo "pack,bytes,$(stat -L -c %s "$work/rooms/large.retex")"
     echo "measured,by,\"$(figures_head bench-serve | sed 's/ made this page from/ measured them with/')\""
 } >"$out/serve.csv"
