@@ -144,21 +144,26 @@ function translate(text) {
 
 /* ---- what GLSL has ---- */
 
-const each = (f, ...args) => {
-  const longest = Math.max(...args.map((x) => (Array.isArray(x) ? x.length : 0)));
-  if (!longest) return f(...args);
-  return Array.from({ length: longest }, (_, i) => f(...args.map((x) => (Array.isArray(x) ? x[i] : x))));
+const parts = (x) => (Array.isArray(x) ? x.length : 0), part = (x, i) => (Array.isArray(x) ? x[i] : x);
+/* f of one to three values, part by part where one is a vector. Most of the time is spent here. */
+const each = (f, a, b, c) => {
+  const longest = Math.max(parts(a), parts(b), parts(c));
+  if (!longest) return f(a, b, c);
+  const values = [];
+  for (let i = 0; i < longest; i++) values.push(f(part(a, i), part(b, i), part(c, i)));
+  return values;
 };
 const isMatrix = (x) => Array.isArray(x) && Array.isArray(x[0]);
 const SIGNS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, "&": (a, b) => a & b, "|": (a, b) => a | b,
   "<<": (a, b) => a << b, ">>": (a, b) => a >> b };
 const times = (m, v) => v.map((_, row) => v.reduce((sum, x, column) => sum + m[column][row] * x, 0));
-const places = (name) => [...name].map((c) => Math.max("xyzw".indexOf(c), "rgba".indexOf(c)));
+const known = {}; // the places of names
+const places = (name) => (known[name] ??= [...name].map((c) => Math.max("xyzw".indexOf(c), "rgba".indexOf(c))));
 const G = {
   negative: (x) => each((a) => -a, x),
   apply: (sign, a, b) => {
     if (sign === "*" && isMatrix(a)) return isMatrix(b) ? b.map((column) => times(a, column)) : times(a, b);
-    return each(SIGNS[sign], a, b);
+    return typeof a === "object" || typeof b === "object" ? each(SIGNS[sign], a, b) : SIGNS[sign](a, b);
   },
   swizzle: (x, name) => (name.length === 1 ? x[places(name)[0]] : places(name).map((k) => x[k])),
   store: (x, name, value) => places(name).forEach((k, i) => { x[k] = name.length === 1 ? value : value[i]; }),
@@ -166,7 +171,11 @@ const G = {
 
 const floats = (x) => Number(x), wholes = (x) => BigInt(Math.trunc(Number(x)));
 const vector = (size, convert) => (...args) => {
-  const flat = args.flat().map(convert);
+  const flat = [];
+  for (const x of args) {
+    if (Array.isArray(x)) for (const y of x) flat.push(convert(y));
+    else flat.push(convert(x));
+  }
   return flat.length === 1 ? Array(size).fill(flat[0]) : flat.slice(0, size);
 };
 const bits = new DataView(new ArrayBuffer(4));

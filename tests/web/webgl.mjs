@@ -20,7 +20,8 @@ export class WebGLTexture {
   }
 
   at(image, x, y) {
-    return [...image.values.subarray(4 * (y * image.width + x), 4 * (y * image.width + x) + 4)];
+    const k = 4 * (y * image.width + x), { values } = image;
+    return [values[k], values[k + 1], values[k + 2], values[k + 3]];
   }
 
   texel(x, y, layer = 0) {
