@@ -1,6 +1,7 @@
 #!/bin/sh
 # Retextured frames of a pan do not flicker: the temporal error of denoised and retextured sets is at most that of frames
-# rendered again and denoised alike. table/frames.sh makes the frames; docs/frames.md has the figures of larger ones.
+# rendered again and denoised alike. table/frames.sh makes the frames, and takes the converged ones from truths where no
+# pixel changed; KEEP_TRUTHS=1 keeps new ones there. docs/frames.md has the figures of larger ones.
 set -u
 . tests/lib/tap.sh
 need_pictures "the pans"

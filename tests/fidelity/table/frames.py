@@ -33,7 +33,7 @@ def main():
     frames, (height, spp, truth_spp) = int(frames), settings.split()
     rows, strips = [], []
     for scene in scenes.split():
-        truth = [pictures.encoded(pictures.colours(f"{work}/{scene}-truth-{t + 1:02d}.exr")) for t in range(frames)]
+        truth = np.split(pictures.encoded(pictures.colours(f"{work}/truth/pan-{scene}-{height}.exr")), frames)
         for seed in seeds.split():
             for kind, label in KINDS:
                 e = errors(work, scene, seed, kind, frames, truth)

@@ -11,9 +11,7 @@
 # FRAMES_SCENES, FRAMES_HEIGHT, FRAMES_SPP, FRAMES_TRUTH_SPP and FRAMES_SEEDS choose less, or more; FRAMES_WORK is another
 # folder.
 set -eu
-. tests/figures/head.sh
-build=${BUILD:-build} here=tests/fidelity
-PATH=$build/bin:$PATH
+. tests/fidelity/table/lib.sh
 work=${FRAMES_WORK:-$build/fidelity-frames}
 scenes=${FRAMES_SCENES:-cornell-box living-room} height=${FRAMES_HEIGHT:-120} spp=${FRAMES_SPP:-64}
 truth_spp=${FRAMES_TRUTH_SPP:-1024} seeds=${FRAMES_SEEDS:-1} frames=12
@@ -42,11 +40,26 @@ render() { # SCENE OPTION…
     retex-render -q --resume --frames 1-$frames -I "scenes/$scene" --size "$(size "$scene")" "$@" \
         "$here/scenes/pan-$scene.pov"
 }
+# The converged frames, one below the other, as the truths of lib.sh: $work/truth/pan-SCENE-HEIGHT.exr.
+converged() { # SCENE
+    name=pan-$1-$height seen=$work/key/$1 new=$work/truth.new/$1
+    mkdir -p "$work/key" "$work/truth" "$work/truth.new"
+    # shellcheck disable=SC2046 # words wanted
+    render "$1" --size 12x9 --spp 16 --seed 1000 $(textures "$1" --replace) -o "$seen-%02d.exr"
+    oiiotool "$seen"-??.exr --mosaic 1x$frames -o "$seen.exr"
+    kept=$(truth_file "$name" "$seen.exr" "$(size "$1") $truth_spp")
+    ln -sfn "$kept" "$work/truth/$name.exr"
+    [ ! -e "$kept" ] || return 0
+    # shellcheck disable=SC2046
+    render "$1" --spp "$truth_spp" --seed 5000 $(textures "$1" --replace) -o "$new-%02d.exr"
+    oiiotool "$new"-??.exr --ch R,G,B --mosaic 1x$frames -d half -o "$new.exr"
+    store_truth "$name" "$new.exr" "$kept"
+    rm -r "$work/truth.new"
+}
 
 for scene in $scenes; do
     echo "fidelity-frames: $scene" >&2
-    # shellcheck disable=SC2046 # words wanted
-    render "$scene" --spp "$truth_spp" --seed 5000 $(textures "$scene" --replace) -o "$work/$scene-truth-%02d.exr"
+    converged "$scene"
     for seed in $seeds; do
         name=$work/$scene-seed$seed
         # shellcheck disable=SC2046

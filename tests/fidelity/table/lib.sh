@@ -115,15 +115,18 @@ truth_file() { # NAME SMALL-PICTURE WORD…: where that of this small picture is
     mkdir -p "$build/truth"
     echo "$(cd "$build" && pwd)/truth/$1-$key.exr"
 }
-# With KEEP_TRUTHS=1, as make figures has it, a new one replaces that of the same name in $here/truths.
 keep_truth() { # NAME A.exr B.exr FILE
     "${python:-/usr/bin/python3}" -B $here/table/truth.py "$2" "$3" "$4.part.exr"
-    mv "$4.part.exr" "$4"
     rm "$2" "$3"
+    store_truth "$1" "$4.part.exr" "$4"
+}
+# With KEEP_TRUTHS=1, as make figures has it, a new one replaces that of the same name in $here/truths.
+store_truth() { # NAME NEW FILE
+    mv "$2" "$3"
     [ -n "${KEEP_TRUTHS:-}" ] || return 0
     rm -f "$here/truths/$1"-????????????????.exr
-    mv "$4" "$here/truths/"
-    ln -sfn "$PWD/$here/truths/${4##*/}" "$work/truth/$1.exr"
+    mv "$3" "$here/truths/"
+    ln -sfn "$PWD/$here/truths/${3##*/}" "$work/truth/$1.exr"
 }
 
 # Of a scene under several textures, rendered along the same paths: $work/truth/SCENE-TEXTURE.exr.
