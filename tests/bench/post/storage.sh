@@ -88,7 +88,7 @@ for scene in $scenes; do
     # shellcheck disable=SC2086
     truths "$scene" "$truth_spp" $looks
     for layout in $layouts; do
-        echo "bench-storage: rendering $scene, $layout" >&2
+        echo "bench-storage: $scene, $layout" >&2
         measure_rendered
         measure_denoised
     done

@@ -27,7 +27,7 @@ def uses(manifest):
             put(factor.get("image"), "radiance")
     for footprint in manifest["footprints"]:
         put(footprint["uv"], "UV")
-        put(footprint["spread"], "spread")
+        put(footprint.get("spread") or footprint.get("axes"), "spread")
         put(footprint["albedo"], "albedo")
     for share in (share for mixture in manifest.get("mixtures", []) for share in mixture):
         put(share["weight"], "shares")
