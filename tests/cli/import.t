@@ -1,20 +1,6 @@
 # retex-import: what becomes of models, compared with a scene that says the same in POV-Ray's words.
-$ /usr/bin/python3 $TESTS/import_models.py && cp $TESTS/import_reference.pov reference.pov &&
-+     grep '^camera' reference.pov >camera.inc
-$ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
-
-# look MODEL: import it, put the reference's camera into the scene, and render what is seen first.
-% look() {
-%     retex-import -q "$@" -o scene || return
-%     cat camera.inc >>scene/scene.pov
-%     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr
-%     rm -r scene
-% }
-% same() {
-%     for part in albedo depth uv; do
-%         retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs
-%     done
-% }
+% . "$TESTS/import_look.sh"
+$ /usr/bin/python3 $TESTS/import_models.py && reference
 
 # Depth, colour and UV are the reference's: nothing is mirrored, each card is in its place.
 $ for m in card.gltf card.glb second.gltf opaque.gltf words.gltf quantized.gltf quantized.glb card.obj card.dae; do
@@ -165,7 +151,7 @@ $ for m in coated:Silk colored:Wood second:Steel; do
 
 % # The normal in the middle of the picture of the scene `bumpy`.
 % middle_normal() {
-%     cat camera.inc >>bumpy/bumpy.pov
+%     grep '^camera' reference.pov >>bumpy/bumpy.pov
 %     retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr
 %     oiiotool -q bumpy.exr --subimage normal -o bumpy.exr
 %     make_values bumpy.exr 0,0

@@ -1,20 +1,6 @@
 # retex-import: glTF files whose meshes are compressed, compared with a scene that says the same in POV-Ray's words.
-$ /usr/bin/python3 $TESTS/import_compressed.py && cp $TESTS/import_reference.pov reference.pov &&
-+     grep '^camera' reference.pov >camera.inc
-$ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
-% # MODEL with the camera of the reference, and whether its picture is another's in all that is seen first:
-% # look MODEL OPTION…; same FILE FILE.
-% look() {
-%     retex-import -q "$@" -o scene || return
-%     cat camera.inc >>scene/scene.pov
-%     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr
-%     rm -r scene
-% }
-% same() {
-%     for part in albedo depth uv; do
-%         retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs
-%     done
-% }
+% . "$TESTS/import_look.sh"
+$ /usr/bin/python3 $TESTS/import_compressed.py && reference
 
 # Draco: indices of any type, strips that are triangles in its data, data that two meshes share, integers.
 $ for m in draco_bytes draco_words draco_longs draco_strip draco_integers; do

@@ -1,20 +1,6 @@
 # retex-import: instances, hidden nodes, and what materials of glTF files do without.
-$ /usr/bin/python3 $TESTS/import_nodes.py && cp $TESTS/import_reference.pov reference.pov &&
-+     grep '^camera' reference.pov >camera.inc
-$ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
-% # MODEL with the camera of the reference, and whether its picture is another's in all that is seen first:
-% # look MODEL OPTION…; same FILE FILE.
-% look() {
-%     retex-import -q "$@" -o scene || return
-%     cat camera.inc >>scene/scene.pov
-%     retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr
-%     rm -r scene
-% }
-% same() {
-%     for part in albedo depth uv; do
-%         retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs
-%     done
-% }
+% . "$TESTS/import_look.sh"
+$ /usr/bin/python3 $TESTS/import_nodes.py && reference
 
 # Each instance is an object: rotations of floats, of words, of bytes, and of words that are compressed.
 $ for m in instances instances_words instances_bytes instances_packed; do

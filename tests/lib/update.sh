@@ -25,7 +25,7 @@ golden)
     else
         echo "before: none"
     fi
-    cp "$new" "$folder/expected.exr"
+    cat "$new" >"$folder/expected.exr" # with the mode of new files, not of temporary ones
     ls -l "$folder/expected.exr"
     ;;
 cli | oiio | fidelity)
