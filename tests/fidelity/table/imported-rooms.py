@@ -10,25 +10,17 @@ import os
 import sys
 
 import numpy as np
-import OpenImageIO as oiio
+
+from pictures import colours, decibels, encoded, write
 
 GRID = 6  # regions a side
 DARK = 0.02  # regions with a mean below are not compared
 
 
-def read(path):
-    return oiio.ImageBuf(path).get_pixels(oiio.FLOAT)[:, :, :3].astype(np.float64)
-
-
-def encode(x):
-    x = np.clip(x, 0, 1)
-    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9)**(1 / 2.4) - 0.055)
-
-
 def scores(room, texture):
     """Mean squared errors: of the retexture, of rendering again; and how many pictures."""
-    again = [encode(read(path)) for path in sorted(glob.glob(f"{room}/again-*-{texture}.exr"))]
-    made = encode(read(f"{room}/retextured-{texture}.exr"))
+    again = [encoded(colours(path)) for path in sorted(glob.glob(f"{room}/again-*-{texture}.exr"))]
+    made = encoded(colours(f"{room}/retextured-{texture}.exr"))
     n = len(again)
     total, squares = sum(again), sum(np.mean(r * r) for r in again)
     # over pairs i != j: sums of (A - Ri)(A - Rj) = (sum of A - Ri)^2 - sum of (A - Ri)^2
@@ -37,15 +29,11 @@ def scores(room, texture):
     return apart / (n * (n - 1)), spread, n
 
 
-def decibels(error):
-    return 10 * np.log10(1 / max(error, 1e-12))
-
-
 def regions(room):
     """Relative differences of regions' means from Cycles, or None."""
     if not os.path.exists(f"{room}/cycles.exr"):
         return None
-    ours, theirs = read(f"{room}/plain.exr"), read(f"{room}/cycles.exr")
+    ours, theirs = colours(f"{room}/plain.exr"), colours(f"{room}/cycles.exr")
     height, width = ours.shape[:2]
     found = []
     for j in range(GRID):
@@ -59,12 +47,8 @@ def regions(room):
 def picture(work, name, room, exposure):
     """Cycles' picture, ours, and both retextures beside each other."""
     files = [f"{room}/{f}.exr" for f in ("cycles", "plain", "retextured-walnut", "retextured-damask")]
-    parts = [encode(read(f) * exposure) for f in files if os.path.exists(f)]
-    sheet = np.concatenate(parts, axis=1).astype(np.float32)
-    out = oiio.ImageBuf(oiio.ImageSpec(sheet.shape[1], sheet.shape[0], 3, oiio.FLOAT))
-    out.set_pixels(out.roi, sheet)
-    out.specmod().attribute("CompressionQuality", 88)
-    out.write(f"{work}/rooms-{name}.jpg", "uint8")
+    parts = [encoded(colours(f) * exposure) for f in files if os.path.exists(f)]
+    write(f"{work}/rooms-{name}.jpg", np.concatenate(parts, axis=1), ("CompressionQuality", 88))
 
 
 def main(work, table, head, size, spp):
