@@ -3,13 +3,9 @@
 # libFuzzer. Prints a line of Markdown for each: branches of the compiled code, those of the sanitizers' checks among
 # them, and the share of them that was run.
 set -u
-here=$(pwd)
 [ $# != 0 ] || set -- edit request ini manifest pack set scene gltf upload
-case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 . tests/fuzz/inputs.sh
-make_inputs "$work"
+begin
 for name; do
     corpus=tests/fuzz/corpus/$name.tar.xz
     [ -e "$corpus" ] || continue

@@ -5,15 +5,12 @@
 # $KEEP. With FUZZ_MINIMIZE=1 the smallest inputs that reach all that was reached take the place of the corpus, but for
 # scene: its inputs are made of other people's scenes too, and stay in $KEEP. Exit 1 when something was found.
 set -u
-seconds=$1 here=$(pwd)
+seconds=$1
 shift
 [ $# != 0 ] || set -- edit request ini manifest pack set scene gltf upload
-case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
-case $KEEP in /*) ;; *) KEEP=$here/$KEEP ;; esac
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 . tests/fuzz/inputs.sh
-make_inputs "$work"
+begin
+keep
 
 cd "$work" || exit 2
 status=0

@@ -1,4 +1,20 @@
-# Sourced by scripts that run fuzz drivers, in the repository's root: what the drivers read beside their inputs.
+# Sourced by scripts that run fuzz drivers, in the repository's root, $here: folders, and what the drivers read
+# beside their inputs.
+here=$(pwd)
+
+# begin: $BUILD as a path from the root, and $work, a folder with the inputs that goes at the end.
+begin() {
+    case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    make_inputs "$work"
+}
+
+# keep: $KEEP, the folder for what is found, as a path from the root.
+keep() {
+    mkdir -p "$KEEP"
+    KEEP=$(cd "$KEEP" && pwd)
+}
 
 # make_inputs FOLDER: includes and a light distribution as they are, and in the place of every texture a picture of a few
 # pixels; samples of FUZZ_LIST, and what lies beside them; of two files that have one name the last.

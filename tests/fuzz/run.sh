@@ -3,19 +3,13 @@
 # $BUILD holds the sanitized programs; what is found goes into $KEEP. Exit 1 when something was found. FUZZ_LIST is a
 # file with names of more scenes to mutate, as they are below FUZZ_FOLDER; by default POV-Ray's samples.
 set -u
-seconds=$1 seed=${2-} here=$(pwd)
+seconds=$1 seed=${2-}
 shift; [ $# = 0 ] || shift
 [ -n "$seed" ] || seed=$(date +%s)
 [ $# != 0 ] || set -- edit request ini manifest pack set scene gltf import upload player
-case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
-case $KEEP in /*) ;; *) KEEP=$here/$KEEP ;; esac
-mkdir -p "$KEEP"
-KEEP=$(cd "$KEEP" && pwd)
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 . tests/fuzz/inputs.sh
-make_inputs "$work"
+begin
+keep
 
 cd "$work" || exit 2
 status=0
