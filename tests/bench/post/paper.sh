@@ -46,8 +46,8 @@ retextured() { # SET PICTURE
     # shellcheck disable=SC2046,SC2086 # words wanted
     retex-combine -q "$1" $(texture_options --texture $targets) -o "$2"
 }
-stored() { # WHAT FILE
-    "$python" $here/stored.py "$2" "$2" >"$work/sizes.json"
+stored() { # WHAT FILE [SET]: of the parts of the set, where the file can no longer be read as one
+    "$python" $here/stored.py "$2" "${3:-$2}" >"$work/sizes.json"
     record "$1" null
 }
 
@@ -62,7 +62,7 @@ for scene in $scenes; do
         rendered "$name-strict.exr" $chosen --layout paper --strict-paper --no-denoise-data
         stored strict "$name-strict.exr"
         oiiotool --nosoftwareattrib -a "$name-strict.exr" -d half --compression zip -o "$work/half.exr"
-        stored strict-half "$work/half.exr"
+        stored strict-half "$work/half.exr" "$name-strict.exr"
         rm "$work/half.exr"
         retextured "$name-strict.exr" "$work/exr.exr"
         for quality in $qualities; do
