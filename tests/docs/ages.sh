@@ -49,6 +49,10 @@ says 'which HEAD does not stand on$' "a page of a commit that is not there"
 page 'yesterday'
 says 'does not say from which commit' "a page that does not say its commit"
 page 'commit COMMIT'
+echo 'speed | bench | 3 | gone | kept | | material' >tests/figures/pages.txt
+says '' "a page whose material is not there"
+mkdir material
+says 'there is no gone$' "the same with its material"
 echo 'speed | bench | 3 | gone | kept |' >tests/figures/pages.txt
 says '^tests/figures/pages.txt: speed: there is no gone$' "a subject that is not there"
 echo 'speed | bench | 3 | subject | kept |' >tests/figures/pages.txt

@@ -2,8 +2,8 @@
 
 pages.txt, beside this file, names each page's subject. The page says from which commit it was made. From there to the
 last commit that touched the subject there may be 50 commits; a subject that nobody touched makes no page old. Prints a
-line for each page that is older, or is of no commit of this repository, and exits with 1. Without the repository's
-history, as in a source package, there is nothing to check.
+line for each page that is older, or is of no commit of this repository, and exits with 1. Pages whose material is not
+there cannot be made. Without the repository's history, as in a source package, there is nothing to check.
 """
 import os
 import re
@@ -23,7 +23,8 @@ def pages():
         for line in file:
             if not line.startswith("#"):
                 columns = [column.strip() for column in line.split("|")]
-                yield columns[0], columns[3].split()
+                if all(map(os.path.exists, filter(None, columns[6:]))):
+                    yield columns[0], columns[3].split()
 
 
 def wrong(page, subject):

@@ -37,6 +37,11 @@ for page in $pages; do
         exit 2
     }
     target=$(column 2) minutes=$(column 3) less=$(column 6) flags="PAGES=$page" keep=1
+    material=$(column 7)
+    if [ -n "$material" ] && ! [ -e "$material" ]; then
+        echo "figures: docs/$page.md stays as it is: there is no $material"
+        continue
+    fi
     if [ -n "$full" ]; then less='' flags="$flags FULL=1" minutes=100000 keep=; fi
     if [ -e "$work/$page.done" ]; then
         echo "figures: docs/$page.md is of this build"
