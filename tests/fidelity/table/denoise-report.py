@@ -96,6 +96,11 @@ SET, DENOISED, AGAIN, MORE, RIVAL = ("set", 128), ("denoised", 128), ("again", 1
 MANY, MANY_DENOISED = ("set", 1024), ("denoised", 1024)
 
 
+def count_of_seeds(t):
+    count = len(t.seeds[SET])
+    return "1 seed" if count == 1 else f"{count} seeds"
+
+
 def worst_seeds(t):
     """By scene and region: the seed of the least gain, mean over textures, and that gain."""
     found = {}
@@ -125,7 +130,7 @@ def asked(t):
             ("at 128 samples 6 dB over the set, mean", signed(t.gain(DENOISED, SET)) + " dB",
              t.gain(DENOISED, SET) >= 6),
             ("in no scene and region worse than the set by more than 0.1 dB, mean of textures, "
-             f"for each of {len(t.seeds[SET])} seeds",
+             f"for each of {count_of_seeds(t)}",
              f"least {signed(below)} dB: {scene}, {region}, seed {seed}", below >= -0.1),
             ("at 1024 samples never worse than the set, in whole pictures, for each scene and texture",
              f"least {signed(whole[0])} dB: {whole[1]}, {whole[2]}", whole[0] >= 0),
@@ -227,7 +232,7 @@ pictures does not count for PSNR, but does for FLIP. The rows are:
 - `again denoised`: that with `--denoise`. It uses the same filter, and is therefore a fair comparison. It must filter
   each texture anew, and sees the texture only with its noise.
 
-Sets of 128 samples have {len(t.seeds[SET])} seeds, everything else has one. Means are over all scenes, textures and seeds.
+Sets of 128 samples have {count_of_seeds(t)}, everything else has one. Means are over all scenes, textures and seeds.
 Scenes and textures are those of [fidelity.md](fidelity.md). After ± is half of an interval of 95 %, over places in the
 picture. [denoise.csv](denoise.csv) has all figures.
 {head}""")
