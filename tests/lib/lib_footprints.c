@@ -201,12 +201,12 @@ void share_light(Work *w, RetexFootprintKind kind, const float *weights, int cou
     retex_denoise_share_light(w->footprints, &w->d, find_signal(w, 0, kind), 1, 1, neighbours, count, light, &w->out);
 }
 
-void pool_later(Work *w, const float *weights, int count)
+void share_later(Work *w, const float *weights, int count)
 {
     RetexNeighbour neighbours[WIDTH];
     for (int k = 0; k < count; k++)
         neighbours[k] = (RetexNeighbour){1 + k, 1, weights[k]};
-    retex_denoise_pool_interreflections(w->footprints, &w->d, 1, 1, neighbours, count, &w->out);
+    retex_denoise_share_later(w->footprints, &w->d, 1, 1, neighbours, count, &w->out);
 }
 
 const float *result(const Work *w, int part)

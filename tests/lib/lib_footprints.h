@@ -51,7 +51,7 @@ void close_work(Work *w);
 const RetexSignal *find_signal(const Work *w, int target, RetexFootprintKind kind);
 /* Calls for pixel (1,1), whose neighbours to the right have these weights. */
 void share_light(Work *w, RetexFootprintKind kind, const float *weights, int count, const float light[3]);
-void pool_later(Work *w, const float *weights, int count);
+void share_later(Work *w, const float *weights, int count);
 /* Values of that pixel. */
 const float *result(const Work *w, int part);
 const float *result_uv(const Work *w, int footprint);

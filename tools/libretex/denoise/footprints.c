@@ -451,31 +451,32 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoi
         keep_clusters(f, g, &d->set->parts[signal->noise].image, &p, neighbours, count, light);
 }
 
-static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours,
+/* 1 if the pixel has clusters with shares in interreflected light. */
+static int has_interreflections(const RetexDenoiseFootprints *f, size_t i)
+{
+    Pool pool;
+    for (int t = 0; t < f->ninterreflections; t++)
+        for (int k = 0; k < f->interreflections[t].count; k++)
+            if (load_pool(&pool, &f->interreflections[t], &f->interreflections[t].of[k], i, 1))
+                return 1;
+    return 0;
+}
+
+/* What a pixel sees of interreflections, and the shares of it, stay its own: shares pooled over neighbours, which see
+ * other parts of the texture, would favour wide clusters. A pixel that has none takes those of the neighbour with the
+ * largest weight that has any. */
+static void keep_interreflections(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours,
                                   int count)
 {
-    Pools pools[RETEX_MAX_TARGETS];
-    double shared = 0;
-    for (int t = 0; t < f->ninterreflections; t++) {
-        const RetexFootprintClass *g = &f->interreflections[t];
-        pool_class(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
-        for (int k = 0; k < pools[t].count; k++)
-            shared += pools[t].of[k].shared;
+    size_t from = p->at;
+    float best = 0;
+    for (int n = 0; n < count && !has_interreflections(f, p->at); n++) {
+        const size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
+        if (neighbours[n].weight > best && has_interreflections(f, i))
+            best = neighbours[n].weight, from = i;
     }
-    for (int t = 0; t < f->ninterreflections; t++) {
-        const RetexFootprintClass *g = &f->interreflections[t];
-        if (!(shared > 0))
-            copy_footprints(f, g, p, p->at);
-        for (int k = 0; k < g->count && shared > 0; k++) {
-            const Pool *pool = &pools[t].of[k];
-            if (k >= pools[t].count) {
-                clear_footprint(&g->of[k], p);
-                continue;
-            }
-            store_pool(&g->of[k], p, pool, effective_coverage(pool));
-            store_share(&g->of[k], p, pool->shared / shared);
-        }
-    }
+    for (int t = 0; t < f->ninterreflections; t++)
+        copy_footprints(f, &f->interreflections[t], p, from);
 }
 
 static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p,
@@ -492,14 +493,14 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass 
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
 }
 
-void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *f, const RetexDenoiser *d, int x, int y,
+void retex_denoise_share_later(const RetexDenoiseFootprints *f, const RetexDenoiser *d, int x, int y,
                                          const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out)
 {
     const Pixel p = pixel_at(f, out, x, y);
     if (!d->params.footprints)
         return;
     if (f->ninterreflections)
-        pool_interreflections(f, &p, neighbours, count);
+        keep_interreflections(f, &p, neighbours, count);
     for (int k = 0; k < f->nhits; k++)
         pool_hit(f, &f->hits[k], &p, neighbours, count);
 }

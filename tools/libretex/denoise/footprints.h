@@ -19,9 +19,10 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *footprints, const R
                                const RetexSignal *signal, int x, int y, const RetexNeighbour *neighbours, int count,
                                const float light[3], RetexDenoisedRows *out);
 
-/* Pool the footprints that are not clusters of a signal: interreflections of all targets; in layout paper those of
- * second and further hits. */
-void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser, int x,
-                                         int y, const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out);
+/* Distribute the footprints that are not clusters of a signal, of all targets. Those of interreflections stay, with
+ * their shares; where the pixel has none, those of the neighbour with the largest weight that has any are copied. Those
+ * of second and further hits, in layout paper, are pooled. */
+void retex_denoise_share_later(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser, int x, int y,
+                               const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out);
 
 #endif

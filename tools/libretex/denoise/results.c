@@ -211,7 +211,7 @@ void retex_tile_pool(const RetexDenoiser *d, const float *const alike[NEIGHBOURS
         for (int x = 0; x < row.count; x++) {
             const TilePixel at = {row.x + x, row.y, row.i + (size_t)x};
             const int count = find_neighbours(neighbours, d, alike, &at);
-            retex_denoise_pool_interreflections(d->footprints, d, at.x, at.y, neighbours, count, out);
+            retex_denoise_share_later(d->footprints, d, at.x, at.y, neighbours, count, out);
         }
     }
 }
