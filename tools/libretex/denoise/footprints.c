@@ -464,13 +464,13 @@ static int has_interreflections(const RetexDenoiseFootprints *f, size_t i)
 
 /* What a pixel sees of interreflections, and the shares of it, stay its own: shares pooled over neighbours, which see
  * other parts of the texture, would favour wide clusters. A pixel that has none takes those of the neighbour with the
- * largest weight that has any. */
+ * largest weight that has any; its own weight is the largest of all. */
 static void keep_interreflections(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours,
                                   int count)
 {
     size_t from = p->at;
     float best = 0;
-    for (int n = 0; n < count && !has_interreflections(f, p->at); n++) {
+    for (int n = 0; n < count; n++) {
         const size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
         if (neighbours[n].weight > best && has_interreflections(f, i))
             best = neighbours[n].weight, from = i;
