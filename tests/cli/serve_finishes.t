@@ -11,18 +11,20 @@ $ for s in three two walls; do retex-pack -q $s.exr -o rooms/$s.retex; done
 $ cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg
 $ cp textures/oak.jpg textures/wood/wood_diff.jpg
 $ cat >maps.py <<'END'
-+ import struct, sys
-+ for name, dark in ("gloss", 16), ("other", 4):
-+     pixels = b"".join(bytes([0 if (x // dark + y // 8) % 2 else 200 - x] * 3) for y in range(32) for x in range(32))
-+     file = struct.pack("<IHHI", 54 + len(pixels), 0, 0, 54)
-+     picture = struct.pack("<IiiHHIIiiII", 40, 32, 32, 1, 24, 0, len(pixels), 0, 0, 0, 0)
-+     open(name + ".bmp", "wb").write(b"BM" + file + picture + pixels)
++ import struct, zlib
++ def chunk(kind, data):
++     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
++ for name, dark in ("gloss", 16), ("other", 4): # files of the same size
++     pixels = b"".join(b"\0" + b"".join(bytes([0 if (x // dark + y // 8) % 2 else 200 - x] * 3) for x in range(32))
++                       for y in range(32))
++     file = chunk(b"IHDR", struct.pack(">IIBBBBB", 32, 32, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(pixels, 0))
++     open(name + ".png", "wb").write(b"\x89PNG\r\n\x1a\n" + file + chunk(b"IEND", b""))
 + END
 $ /usr/bin/python3 maps.py
-$ cp gloss.bmp textures
-$ cp gloss.bmp textures/wood/wood_rough.bmp
+$ cp gloss.png textures
+$ cp gloss.png textures/wood/wood_rough.png
 $ cp textures/oak.jpg textures/tiles/tiles_diff.jpg
-$ cp gloss.bmp textures/tiles/tiles_nor_gl.bmp
+$ cp gloss.png textures/tiles/tiles_nor_gl.png
 % serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }
 $ serve finishes normals laid new_maps
 > finishes

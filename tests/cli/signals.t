@@ -122,11 +122,9 @@ $ for t in "retex-denoise --threads 1 --radius 10 noisy.exr -o out/a.exr" "retex
 ! retex-sample: error: ended by SIGTERM
 ! retex-diff: error: ended by SIGTERM
 $ ls -A out
-$ rm big.exr
 
 # OpenImageIO's own temporary file, of a format that needs a name to write to.
 $ mkdir temporary
-$ make_set big.exr 2048 2048
 $ (retex-combine -q set.exr -o small.jp2 && rm small.jp2) 2>/dev/null && {
 +     TMPDIR=$PWD/temporary retex-combine -q big.exr -o out/a.jp2 &
 +     tool=$!
