@@ -329,6 +329,7 @@ class Room:
         targets = self.room["targets"]
         self.finishes = [t.get("finish", 0) for t in targets]
         self.classes = [read_class(folder, c, targets[c["target"]]["periodic"]) for c in self.room["classes"]]
+        self.kept = {}  # filtered textures
 
     def image(self, entry):
         checked(self.folder, entry)
@@ -358,6 +359,12 @@ class Room:
 
     def filtered(self, c, footprint, texture):
         """A texture at a footprint of a class, where it is present."""
+        if (id(footprint), texture) not in self.kept:
+            self.kept[id(footprint), texture] = self.filter(c, footprint, texture)
+        return self.kept[id(footprint), texture]
+
+    def filter(self, c, footprint, texture):
+        """The same, anew."""
         info, (present, uv, sigma, rho, _) = self.room["classes"][c], footprint
         uv = np.array([x[present] for x in uv])
         if rho is None:
