@@ -57,12 +57,12 @@ for precision in '' --full-precision; do
     done
 done
 
-# Denoised, a lamp has less noise, in its picture and in its light: against 128 times the samples.
+# Denoised, a lamp has less noise, in its picture and in its light: against 32 times the samples.
 retex-denoise -q "$work/set.exr" -o "$work/denoised.exr"
 # denoises NAME TEXTURE REPLACED
 denoises() {
     # shellcheck disable=SC2086
-    render --lamps each --solo Bulb $3 --plain --spp 4096 --seed 1 -o "$work/truth.exr"
+    render --lamps each --solo Bulb $3 --plain --spp 1024 --seed 1 -o "$work/truth.exr"
     for set in set denoised; do
         # shellcheck disable=SC2086
         retex-combine -q "$work/$set.exr" --solo Bulb $2 -o "$work/$set-bulb.exr"
