@@ -18,7 +18,9 @@
 #include "texture/filter.h"
 #include "texture/finish_map.h"
 
-enum { WIDTH = 7, HEIGHT = 5, TEXELS = 4, FINISHES = 3, SCALE = 2, KEPT = 1 + FINISHES };
+enum { TEXELS = 4, FINISHES = 3, SCALE = 2, KEPT = 1 + FINISHES };
+
+static int width = 7, height = 5;
 
 static char folder[] = "/tmp/retex-finish-maps-XXXXXX";
 
@@ -93,6 +95,7 @@ static void texels_have_weights(void **state)
 
 static float color[TEXELS * TEXELS * 4], map[TEXELS * TEXELS * 3];
 static int is_normal; /* 1: the map is of normals */
+static float lamp[3] = {1, 1, 1}; /* of the light whose finishes are chosen */
 #define TILT 20.0
 
 static void write_texture(const char *name, const float *pixels, int channels)
@@ -134,8 +137,8 @@ static int add_part(RetexSet *set, const char *letters, int scale, float least)
     RetexError err = {0};
     int part;
     snprintf(name, sizeof name, "part%d", set->nparts);
-    test_must(retex_set_add_part(set, name, letters, RETEX_FLOAT, (WIDTH + scale - 1) / scale,
-                                 (HEIGHT + scale - 1) / scale, &part, &err),
+    test_must(retex_set_add_part(set, name, letters, RETEX_FLOAT, (width + scale - 1) / scale,
+                                 (height + scale - 1) / scale, &part, &err),
               &err);
     RetexImage *image = &set->parts[part].image;
     for (int i = 0; i < image->width * image->height * image->channels; i++)
@@ -161,15 +164,15 @@ static int add_footprint(RetexSet *set, RetexFootprintKind kind, int scale)
     return index;
 }
 
-/* The light of every kept part: none, sharp, sharp times later, of a mixture, later alone. */
-enum { SHARP, BROAD, LATER, SHAPES = 5 };
+/* The light of every kept part: none, sharp, an image times sharp times later, of a mixture, a mixture of later alone. */
+enum { SHARP, BROAD, LATER, SHAPES = 5, GAIN = 1 };
 
 static RetexSet *make_set(void)
 {
     RetexSet *set = NULL;
     RetexError err = {0};
     int index;
-    test_must(retex_set_create(&set, WIDTH, HEIGHT, &err), &err);
+    test_must(retex_set_create(&set, width, height, &err), &err);
     strcpy(set->layout, "footprints");
     strcpy(set->filter, "box");
     set->spp = 16;
@@ -179,11 +182,14 @@ static RetexSet *make_set(void)
         snprintf(target.finishes[k], sizeof target.finishes[k], "finish%d", k);
     test_must(retex_set_add_target(set, &target, &index, &err), &err);
     add_part(set, "RGB", 1, 0);
+    add_part(set, "R", 1, 0.5f); /* GAIN */
     add_footprint(set, RETEX_FOOTPRINT_SHARP, 1);
     add_footprint(set, RETEX_FOOTPRINT_BROAD, SCALE);
     add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, SCALE);
-    RetexMixture mixture = {.nshares = 1, .shares = {{BROAD, add_part(set, "R", SCALE, 0.5f)}}};
-    test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
+    for (int footprint = BROAD; footprint <= LATER; footprint++) {
+        RetexMixture mixture = {.nshares = 1, .shares = {{footprint, add_part(set, "R", SCALE, 0.5f)}}};
+        test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
+    }
     for (int k = 0; k < KEPT; k++) {
         RetexParameter p = {.kind = RETEX_PARAMETER_COLOR, .target = -1};
         snprintf(p.name, sizeof p.name, "kept%d", k);
@@ -194,12 +200,14 @@ static RetexSet *make_set(void)
         for (int shape = 0; shape < SHAPES; shape++) {
             RetexTerm t = {
                 .role = RETEX_ROLE_LAMP, .target = shape && shape < 4 ? 0 : -1, .radiance = add_part(set, "RGB", 1, 0)};
+            if (shape == 2)
+                t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_IMAGE, GAIN);
             if (shape == 1 || shape == 2)
                 t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_FOOTPRINT, SHARP);
-            if (shape == 3)
-                t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_MIXTURE, 0);
-            if (shape == 2 || shape == 4)
+            if (shape == 2)
                 t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_FOOTPRINT, LATER);
+            if (shape == 3 || shape == 4)
+                t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_MIXTURE, shape == 4);
             t.factors[t.nfactors++] = retex_factor(RETEX_FACTOR_PARAMETER, k);
             test_must(retex_set_add_term(set, &t, NULL, &err), &err);
         }
@@ -298,7 +306,7 @@ static void enlarged_at(const RetexSet *set, int footprint, int x, int y, int fi
                         double out[4])
 {
     const RetexImage *image = &set->parts[set->footprints[footprint].uv].image;
-    const int scale = image->width == WIDTH ? 1 : SCALE;
+    const int scale = image->width == width ? 1 : SCALE;
     const double px = (x + 0.5) / scale - 0.5, py = (y + 0.5) / scale - 0.5;
     memset(out, 0, 4 * sizeof *out);
     for (int j = 0; j < 2; j++)
@@ -330,8 +338,10 @@ static void expected_at(const RetexSet *set, int x, int y, int shown, double rgb
     memset(rgb, 0, 3 * sizeof *rgb);
     for (int t = 0; t < set->nterms; t++) {
         const int k = t / SHAPES - 1, shape = t % SHAPES;
-        const float *light = set->parts[set->terms[t].radiance].image.pixels + 3 * (y * WIDTH + x);
+        const float *light = set->parts[set->terms[t].radiance].image.pixels + 3 * (y * width + x);
         double first[4] = {1, 1, 1}, later[4] = {1, 1, 1}, gate = 1;
+        if (shape == 2)
+            gate = (double)set->parts[GAIN].image.pixels[y * width + x];
         if (shape == 1 || shape == 2)
             enlarged_at(set, SHARP, x, y, k, shown, 0, first);
         if (shape == 3) /* the weights of one share cancel */
@@ -343,19 +353,19 @@ static void expected_at(const RetexSet *set, int x, int y, int shown, double rgb
         else if (k >= 0 && (shape == 0 || shape == 4))
             gate = gate_at(set, x, y, k, shown);
         for (int c = 0; c < 3; c++)
-            rgb[c] += (double)light[c] * first[c] * later[c] * gate;
+            rgb[c] += (double)light[c] * first[c] * later[c] * gate * (k >= 0 ? (double)lamp[c] : 1);
     }
 }
 
 static void compare(const RetexSet *set, const RetexImage *picture, int shown, const char *what)
 {
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
             double rgb[3];
             expected_at(set, x, y, shown, rgb);
             for (int c = 0; c < 3; c++) {
                 rgb[c] = is_normal ? fmax(rgb[c], 0) : rgb[c];
-                const double got = (double)picture->pixels[3 * (y * WIDTH + x) + c];
+                const double got = (double)picture->pixels[3 * (y * width + x) + c];
                 if (!(fabs(got - rgb[c]) < 2e-4 * (1 + rgb[c])))
                     fail_msg("%s, pixel %d,%d channel %d: %g, not %g", what, x, y, c, got, rgb[c]);
             }
@@ -374,10 +384,10 @@ static void check_pictures(int clear, int shown)
     RetexCombineParams params = RETEX_COMBINE_INIT;
     float values[3 * KEPT];
     for (int i = 0; i < 3 * KEPT; i++)
-        values[i] = i / 3 == 0 || i / 3 == 1 + shown;
+        values[i] = i / 3 == 0 ? 1 : i / 3 == 1 + shown ? lamp[i % 3] : 0;
     params.parameters = values;
     test_must(retex_textures_load(textures, set, &spec, 1, 2, &err), &err);
-    test_must(retex_image_alloc(&picture, WIDTH, HEIGHT, 3, &err), &err);
+    test_must(retex_image_alloc(&picture, width, height, 3, &err), &err);
     test_must(retex_retexture(set, NULL, textures, &params, retex_image_keep_rows, &picture, 2, &err), &err);
     compare(set, &picture, shown, "in one pass");
     if (shown == 0) { /* samples have the finish as rendered where the texture is clear */
@@ -405,6 +415,28 @@ static void pictures_follow_the_definition(void **state)
     check_pictures(0, 2);
     check_pictures(1, 0);
     check_pictures(1, 1);
+}
+
+/* Light of one colour alone has the finish that is shown, as light of all. */
+static void light_has_a_color(void **state)
+{
+    (void)state;
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 3; k++)
+            lamp[k] = k == c ? 0.5f : 0;
+        check_pictures(1, 2);
+    }
+    for (int k = 0; k < 3; k++)
+        lamp[k] = 1;
+}
+
+/* Rows that are filtered in several calls. */
+static void rows_may_be_long(void **state)
+{
+    (void)state;
+    width = 1030, height = 2;
+    check_pictures(1, 0);
+    width = 7, height = 5;
 }
 
 static void pictures_with_normals_follow_it_too(void **state)
@@ -460,6 +492,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_have_weights),
         cmocka_unit_test(pictures_follow_the_definition),
+        cmocka_unit_test(light_has_a_color),
+        cmocka_unit_test(rows_may_be_long),
         cmocka_unit_test(pictures_with_normals_follow_it_too),
         cmocka_unit_test(placed_maps_share_texels),
     };
