@@ -164,7 +164,7 @@ static int add_footprint(RetexSet *set, RetexFootprintKind kind, int scale)
     return index;
 }
 
-/* The light of every kept part: none, sharp, an image times sharp times later, of a mixture, a mixture of later alone. */
+/* The light of every kept part: none; sharp; an image, sharp and later; a mixture; a mixture of later alone. */
 enum { SHARP, BROAD, LATER, SHAPES = 5, GAIN = 1 };
 
 static RetexSet *make_set(void)

@@ -566,6 +566,40 @@ static void test_what_is_no_set(void **state)
     retex_image_free(&image);
 }
 
+/* Each image of a footprint has so many channels at least; only the target that gets a texture counts. */
+static void test_footprints_without_channels(void **state)
+{
+    (void)state;
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexError err = {0};
+    spec.constant = 1;
+    for (int k = 0; k < 7; k++) {
+        RetexSet *set = test_set(8, 8, 1);
+        assert_int_equal(set->ntargets, 2);
+        const RetexFootprint *f = NULL;
+        for (int i = 0; i < set->nfootprints && !f; i++)
+            f = set->footprints[i].target == 0 ? &set->footprints[i] : NULL;
+        assert_non_null(f);
+        const int parts[] = {f->uv, f->spread, f->albedo};
+        if (k < 6)
+            set->parts[parts[k / 2]].image.channels += k % 2 ? -1 : 1;
+        for (int target = 0; target < 2; target++) {
+            /* a spread may have the angle too */
+            const int refused = target == 0 && k < 6 && k != 2;
+            snprintf(spec.target, sizeof spec.target, "%s", set->targets[target].name);
+            const int code = retex_textures_load(textures, set, &spec, 1, 1, &err);
+            if (code != (refused ? RETEX_EFORMAT : RETEX_OK))
+                fail_msg("image %d with %d channels: %d", k / 2, set->parts[parts[k / 2 % 3]].image.channels, code);
+            if (!code)
+                retex_textures_close(textures);
+        }
+        if (k < 6)
+            set->parts[parts[k / 2]].image.channels -= k % 2 ? -1 : 1;
+        retex_set_close(&set);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -577,6 +611,7 @@ int main(void)
         cmocka_unit_test(test_mixtures_that_are_wrong),
         cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_what_is_no_set),
+        cmocka_unit_test(test_footprints_without_channels),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
