@@ -172,8 +172,11 @@ int main(int argc, char **argv)
     params->progress_context = &cli;
     params->near = output;
     params->budget = cli.budget;
-    if (piped ? request.first_of_pictures != NULL : retex_is_picture(input, &cli.access))
-        return denoise_picture(&cli, &request, output);
+    if (piped ? request.first_of_pictures != NULL : retex_is_picture(input, &cli.access)) {
+        const int status = denoise_picture(&cli, &request, output);
+        free(request.layers);
+        return status;
+    }
     if (request.first_of_pictures)
         cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", request.first_of_pictures, input);
     free(request.layers);
