@@ -1,25 +1,22 @@
 /* See retex/host/cpu.h. */
 #include <retex/host/cpu.h>
 
-#if RETEX_CPU_X86
 #include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if RETEX_CPU_X86
 #include <cpuid.h>
 
-/* Not every compiler knows its name. Asked once: virtual machines take microseconds to answer cpuid. */
+/* Not every compiler knows its name. */
 static int has_f16c(void)
 {
-    static atomic_int known; /* 0 not yet, 1 no, 2 yes */
-    int answer = atomic_load_explicit(&known, memory_order_relaxed);
-    if (!answer) {
-        unsigned a, b, c, d;
-        answer = __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C) ? 2 : 1;
-        atomic_store_explicit(&known, answer, memory_order_relaxed);
-    }
-    return answer == 2;
+    unsigned a, b, c, d;
+    return __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
 }
 #endif
 
-RetexCpuLevel retex_cpu_level(void)
+static RetexCpuLevel highest_level(void)
 {
 #if RETEX_CPU_X86
     if (!__builtin_cpu_supports("avx2") || !has_f16c())
@@ -31,4 +28,26 @@ RetexCpuLevel retex_cpu_level(void)
 #else
     return RETEX_CPU_BASELINE;
 #endif
+}
+
+static RetexCpuLevel find_level(void)
+{
+    static const char *const names[] = {"baseline", "avx2"};
+    const RetexCpuLevel highest = highest_level();
+    const char *most = getenv("RETEX_CPU");
+    for (int k = 0; k < (int)highest && k < 2; k++)
+        if (most && strcmp(most, names[k]) == 0)
+            return (RetexCpuLevel)k;
+    return highest;
+}
+
+RetexCpuLevel retex_cpu_level(void)
+{
+    static atomic_int known; /* 1 + the level; asked once: virtual machines take microseconds to answer cpuid */
+    int level = atomic_load_explicit(&known, memory_order_relaxed) - 1;
+    if (level < 0) {
+        level = (int)find_level();
+        atomic_store_explicit(&known, level + 1, memory_order_relaxed);
+    }
+    return (RetexCpuLevel)level;
 }

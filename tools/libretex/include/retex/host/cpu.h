@@ -35,7 +35,7 @@ typedef enum RetexCpuLevel {
     RETEX_CPU_LEVELS
 } RetexCpuLevel;
 
-/* The highest level that this machine has. */
+/* The highest level that this machine has, or the lower one that RETEX_CPU names: baseline, avx2. */
 RetexCpuLevel retex_cpu_level(void);
 
 #define RETEX_CPU_INLINE static inline __attribute__((always_inline))
