@@ -376,6 +376,48 @@ static void sources_shine_by_their_laws(void **state)
 }
 
 /* What callers take for granted of a row. */
+/* The lit part of a line has all places that a spot or a cylinder shines at, and hardly another one. */
+static void lit_parts_are_where_they_shine(void **state)
+{
+    (void)state;
+    enum { PLACES = 400 };
+    const double length = 12, step = length / PLACES;
+    for (int kind = 0; kind < 2; kind++) {
+        int lit = 0, exact = 0, nothing = 0;
+        for (int k = 0; k < 3000; k++) {
+            Light light = {.ops = kind ? &light_cylinder : &light_spotlight, .location = random_point(2)};
+            light.color = rgb_grey(1);
+            light.point_at = vec_add(light.location, random_direction());
+            light.falloff = kind ? 0.5 + 2 * random_unit() : 5 + 80 * random_unit(), light.radius = light.falloff / 2;
+            Ray ray = {.origin = random_point(5), .direction = random_direction(), .tmin = 0.5};
+            if (k % 10 == 0) /* along the axis */
+                ray.direction = vec_normalize(vec_sub(light.point_at, light.location));
+            double begin = -1, end = -1, first = INFINITY, last = -INFINITY;
+            const int any = source_lit_part(&light, &ray, length, &begin, &end);
+            for (int n = 0; n < PLACES; n++) {
+                const double t = (n + 0.5) * step;
+                const Vec3 at = vec_mad(ray.origin, ray.direction, ray.tmin + t);
+                Vec3 direction;
+                double distance;
+                if (!(rgb_luminance(source_irradiance(&light, at, light.location, &direction, &distance)) > 0))
+                    continue;
+                first = fmin(first, t), last = t;
+                if (!any || t < begin - 1e-9 || t > end + 1e-9)
+                    fail_msg("%s %d shines at %g, not in %d: %g to %g", light.ops->name, k, t, any, begin, end);
+            }
+            if (any)
+                assert_true(begin >= 0 && end <= length);
+            lit += last >= first;
+            exact += last >= first && begin > first - 1.01 * step && end < last + 1.01 * step;
+            nothing += any && last < first;
+        }
+        printf("# %d of 3000 lines are lit, %d exactly, %d in vain\n", lit, exact, nothing);
+        assert_true(lit > 250);
+        assert_true(exact > (kind ? 0.7 : 0.98) * lit); /* a cylinder shines one way alone */
+        assert_true(nothing < (kind ? lit : lit / 100));
+    }
+}
+
 static void rows_are_whole(void **state)
 {
     static const LightOps *const rows[] = {
@@ -625,6 +667,7 @@ int main(void)
         cmocka_unit_test(tree_of_one_place),
         cmocka_unit_test(domes_are_left_to_paths),
         cmocka_unit_test(only_lights_of_the_group_are_chosen),
+        cmocka_unit_test(lit_parts_are_where_they_shine),
         cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(row_of_a_new_kind),
         cmocka_unit_test(skies_are_sampled_by_luminance),
