@@ -96,6 +96,7 @@ static void test_matrices(void **state)
                                     {.64f, .33f, .64f, .33f, .15f, .06f, .3127f, .329f},
                                     {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, 0},
                                     {.64f, .33f, .3f, .6f, .15f, .06f, NAN, .329f},
+                                    {.64f, .33f, .3f, .6f, .15f, .06f, .7f, .5f},
                                     {INFINITY, .33f, .3f, .6f, .15f, .06f, .3127f, .329f},
                                     {3e38f, 3e38f, -3e38f, 3e38f, 0, 1, .3127f, .329f}};
     for (size_t k = 0; k < sizeof none / sizeof *none; k++)
