@@ -188,6 +188,30 @@ static void test_bonds(void **state)
     }
 }
 
+/* Without a height, a repeat has the image's proportions. */
+static void test_heights_by_aspect(void **state)
+{
+    (void)state;
+    const RetexRepeat repeats[] = {RETEX_REPEAT_STRAIGHT, RETEX_REPEAT_BRICK, RETEX_REPEAT_HERRINGBONE};
+    for (int k = 0; k < 3; k++) {
+        RetexTextureSpec spec = spec_of(repeats[k], 0.6, 0, 0.02);
+        RetexTexture *by_aspect = create(&spec, 90, 30);
+        spec.width[1] = 0.2;
+        RetexTexture *given = create(&spec, 90, 30);
+        uint32_t seed = 3;
+        for (int i = 0; i < 300; i++) {
+            const double x = 3 * test_random(&seed), y = 3 * test_random(&seed);
+            float a[4], b[4];
+            retex_texture_point(by_aspect, x, y, a);
+            retex_texture_point(given, x, y, b);
+            for (int c = 0; c < 4; c++)
+                assert_float_equal(a[c], b[c], 1e-5);
+        }
+        retex_texture_close(&by_aspect);
+        retex_texture_close(&given);
+    }
+}
+
 /* Every texel belongs to one block. */
 static void test_no_gaps(void **state)
 {
@@ -341,8 +365,13 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bonds),   cmocka_unit_test(test_no_gaps), cmocka_unit_test(test_share_of_joints),
-        cmocka_unit_test(test_colors),  cmocka_unit_test(test_vary),    cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_bonds),
+        cmocka_unit_test(test_heights_by_aspect),
+        cmocka_unit_test(test_no_gaps),
+        cmocka_unit_test(test_share_of_joints),
+        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_vary),
+        cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
