@@ -125,10 +125,13 @@ $ for page in combine retex-combine pack set; do PATH=$PWD/fake:$PATH bin/retex 
 > man bin/../share/man/man1/retex-combine.1
 > man bin/../share/man/man1/retex-pack.1.gz
 > man bin/../share/man/man5/retex-set.5
-$ PATH=$PWD/fake:$PATH retex help combine | sed 's|man .*/bin/\.\./|man |'
-> man ../man/retex-combine.1
-$ PATH=$PWD/fake:$PATH retex help retex | sed 's|man .*/bin/\.\./|man |'
-> man ../man/retex.1
+$ mkdir -p tree/build/bin tree/man
+$ cp bin/retex tree/build/bin
+$ : >tree/man/retex-combine.1
+$ : >tree/man/retex.1
+$ for page in combine retex; do PATH=$PWD/fake:$PATH tree/build/bin/retex help $page; done | sed "s|$PWD/||"
+> man tree/build/bin/../../man/retex-combine.1
+> man tree/build/bin/../../man/retex.1
 $ PATH=$bin:/nonexistent bin/retex help combine >/dev/null
 $ PATH=$bin:/nonexistent retex help combine >out.txt
 $ retex-combine --help | head -1
