@@ -208,7 +208,7 @@ static void streams_keep_it(void **state)
 /* Light of `hits` hits of a footprint of one albedo: of exactly so many, and of all further ones with RATIO. */
 static void add_falling_light(RetexSet *set, int footprint, int hits, float albedo)
 {
-    const RetexImage *shape = &set->parts[0].image;
+    const RetexImage shape = set->parts[0].image; /* parts move when one is added */
     RetexError err = {0};
     RetexFactor factor = retex_factor(RETEX_FACTOR_FOOTPRINT, footprint);
     for (int last = 0; last < 2; last++) {
@@ -222,7 +222,7 @@ static void add_falling_light(RetexSet *set, int footprint, int hits, float albe
             term.factors[term.nfactors++] = factor;
         }
         float *light = set->parts[term.radiance].image.pixels;
-        for (size_t i = 0; i < retex_image_index(shape, 0, shape->height); i++) {
+        for (size_t i = 0; i < retex_image_index(&shape, 0, shape.height); i++) {
             const double q = (double)RATIO[i % 3], before = (double)(1 + i % 5);
             light[i] = (float)(last ? q * before * series(q * (double)albedo) : before);
         }

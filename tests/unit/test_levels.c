@@ -242,6 +242,7 @@ static void write_png(int width, int height, int type, int bits, int with)
     if (with & WITH_LATE_XMP)
         add_text(png, end, "XML:com.adobe.xmp");
     png_write_end(png, end);
+    png_destroy_info_struct(png, &end);
     png_destroy_write_struct(&png, &info);
     free(rows), free(of);
     fclose(file);
