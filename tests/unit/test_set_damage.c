@@ -566,7 +566,7 @@ static void test_what_is_no_set(void **state)
     retex_image_free(&image);
 }
 
-/* Each image of a footprint has so many channels at least; only the target that gets a texture counts. */
+/* Each image of a footprint has its number of channels, or a spread more; only the target that gets a texture counts. */
 static void test_footprints_without_channels(void **state)
 {
     (void)state;
@@ -585,7 +585,6 @@ static void test_footprints_without_channels(void **state)
         if (k < 6)
             set->parts[parts[k / 2]].image.channels += k % 2 ? -1 : 1;
         for (int target = 0; target < 2; target++) {
-            /* a spread may have the angle too */
             const int refused = target == 0 && k < 6 && k != 2;
             snprintf(spec.target, sizeof spec.target, "%s", set->targets[target].name);
             const int code = retex_textures_load(textures, set, &spec, 1, 1, &err);

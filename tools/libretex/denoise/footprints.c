@@ -494,7 +494,7 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass 
 }
 
 void retex_denoise_share_later(const RetexDenoiseFootprints *f, const RetexDenoiser *d, int x, int y,
-                                         const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out)
+                               const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out)
 {
     const Pixel p = pixel_at(f, out, x, y);
     if (!d->params.footprints)
