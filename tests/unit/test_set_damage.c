@@ -566,7 +566,7 @@ static void test_what_is_no_set(void **state)
     retex_image_free(&image);
 }
 
-/* Each image of a footprint has its number of channels, a spread may have more; only the new texture's target counts. */
+/* Each image of a footprint has its number of channels; only the target that gets a texture counts. */
 static void test_footprints_without_channels(void **state)
 {
     (void)state;
