@@ -1,4 +1,5 @@
 /* bump_map: normals from a picture's heights, by POV-Ray's three points and frame (compared with its pictures). */
+#include "base/polynomial.h"
 #include "shade/normal.h"
 #include "shade/pigment_image.h"
 
@@ -21,20 +22,16 @@ static double height_of(const BumpMap *map, int i, int j)
     return map->heights[(size_t)j * (size_t)m->width + (size_t)i];
 }
 
-/* Weights of four points in a row, between the second and third of which x lies. */
-static void cubic(double weights[4], double x)
-{
-    const double y = 1 - x;
-    weights[0] = -0.5 * x * y * y;
-    weights[1] = 0.5 * y * (1 + y * (1 + 3 * x));
-    weights[2] = 0.5 * x * (1 + x * (1 + 3 * y));
-    weights[3] = -0.5 * y * x * x;
-}
-
 /* Of the points around: by the inverse of the squared distance. */
 static double nearness(double x, double y)
 {
     return 1 / (x * x + y * y);
+}
+
+/* The points beside a pixel come from the other edge, also of a picture that is there once. */
+static double round_again(double x, int size)
+{
+    return x < 0 ? x + size : x >= size ? x - size : x;
 }
 
 /* x and y in pixels, from the upper left corner. */
@@ -47,7 +44,7 @@ static double height_at(const BumpMap *map, double x, double y)
     const int i0 = (int)left, j0 = (int)top;
     double wx[4] = {0, 1 - u, u, 0}, wy[4] = {0, 1 - v, v, 0}, sum = 0, weights = 0;
     if (kind == 3)
-        cubic(wx, u), cubic(wy, v);
+        cubic_weights(u, wx), cubic_weights(v, wy);
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {
             double weight = wx[i] * wy[j];
@@ -70,8 +67,10 @@ Vec3 bump_map_tilt(const Normal *bumps, Vec3 p, Vec3 n)
     /* Heights at a pixel and at the two ends of the row below it make a triangle with a normal. */
     const double x = (uv.u - floor(uv.u)) * map->image.width + 1e-10,
                  y = (1 - (uv.v - floor(uv.v))) * map->image.height - 1e-10;
-    const double here = bumps->size * height_at(map, x, y), left = bumps->size * height_at(map, x - 1, y + 1),
-                 right = bumps->size * height_at(map, x + 1, y + 1);
+    const double before = round_again(x - 1, map->image.width), after = round_again(x + 1, map->image.width),
+                 below = round_again(y + 1, map->image.height);
+    const double here = bumps->size * height_at(map, x, y), left = bumps->size * height_at(map, before, below),
+                 right = bumps->size * height_at(map, after, below);
     const Vec3 a = vec3(1, here - left, -1), b = vec3(2, right - left, 0);
     const Vec3 bump = vec_normalize(vec_cross(b, a));
     Vec3 across = vec_cross(n, vec3(0, 1, 0)), up = n;

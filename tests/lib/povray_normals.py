@@ -99,6 +99,8 @@ average normal_map { [1 slope y normal_map { [.3 bumps .5 scale .2] [.7 dents .8
 checker normal { aoi normal_map { [.1 bumps .5 scale .2] [.6 gradient y .8 scale .1] } } normal { bumps .2 } scale .7
 pigment_pattern { slope y color_map { [0 rgb 0] [1 rgb 1] } } normal_map { [.3 bumps .5 scale .2] [.7 dents .8 scale .1] }
 aoi .8 scallop_wave frequency 3 scale .2
+bump_map { png "bumps.png" interpolate 3 bump_size 5 } rotate 25*y scale <1.2,.9,1>
+bump_map { png "bumps.png" once interpolate 3 bump_size 8 } translate <-.5,-.4,0> scale 2 translate <12.21,40.7,0>
 '''.strip().split('\n')
 RADIUS, STEP, CELL = 1.5, 4.07, 32   # of spheres; between them; pixels of each
 COLUMNS = 8
