@@ -140,8 +140,11 @@ check-update: tests
 SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
 	LDFLAGS='-fsanitize=$(1)'
 ADDRESS_SANITIZED = BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined)
-asan: # freed memory that is kept aside would count in tests of peak memory
-	ASAN_OPTIONS=quarantine_size_mb=16 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lib/lsan.supp:print_suppressions=0 \
+# Freed memory that is kept aside would count in tests of peak memory. The leak checker takes the thread-local memory of
+# libraries that are opened later for what it is not, and crashes (its log, verbosity=1: "DTLS 8 at 0x1d17").
+asan:
+	ASAN_OPTIONS=quarantine_size_mb=16:intercept_tls_get_addr=0 \
+	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lib/lsan.supp:print_suppressions=0 \
 	    $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check
 tsan:
 	TSAN_OPTIONS='ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \

@@ -65,6 +65,59 @@ static void shadow_rays_obey_beer(void **state)
     }
 }
 
+/* ---- fading ---- */
+
+#define BOX(from, to, fade)                                                                                            \
+    "box { <-1," from ",-1>, <1," to ",1> pigment { rgbt 1 } interior { fade_color <.2,.5,.8> " fade " } }\n"
+
+/* POV-Ray's formula: c + (1 - c) / (1 + (d / distance)^power), above a power of 1000 exp(-(1 - c) d / distance). */
+static double faded(double color, double d, double distance, double power)
+{
+    return power > 1000 ? exp(-(1 - color) * d / distance) : color + (1 - color) / (1 + pow(d / distance, power));
+}
+
+/* Light through fading interiors that follow each other, overlap, and hold the light or what it shines on. */
+static void shadow_rays_fade(void **state)
+{
+    static const double colors[3] = {.2, .5, .8};
+    static const struct {
+        const char *boxes;
+        int count;
+        double of[4][3]; /* a way, fade_distance and fade_power */
+    } cases[] = {
+        {BOX("1", "3", "fade_distance 1.5 fade_power 2"), 1, {{2, 1.5, 2}}},
+        {BOX("1", "3", "fade_distance 4 fade_power 1001"), 1, {{2, 4, 1001}}},
+        {BOX("1", "3", "fade_distance 2 fade_power 1") BOX("3.5", "4", "fade_distance .5 fade_power 3"),
+         2,
+         {{2, 2, 1}, {.5, .5, 3}}},
+        {BOX("1", "3", "fade_distance 2 fade_power 1") BOX("2", "4.5", "fade_distance .5 fade_power 3"),
+         4,
+         {{1, 2, 1}, {1, 2, 1}, {1, .5, 3}, {1.5, .5, 3}}},
+        {BOX("1", "4", "fade_distance 2 fade_power 1") BOX("2", "3", "fade_distance .5 fade_power 3"),
+         4,
+         {{1, 2, 1}, {1, 2, 1}, {1, .5, 3}, {1, 2, 1}}},
+        {BOX("4", "6", "fade_distance 1 fade_power 2"), 1, {{1, 1, 2}}},
+        {BOX("-1.25", "1", "fade_distance 1 fade_power 2"), 2, {{1, 1, 2}, {1, 1, 2}}}, /* and to the camera */
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[1024];
+        double mean[3], wanted[3];
+        snprintf(text, sizeof text,
+                 HEAD "camera { orthographic location <0,0,-2> direction z right .001*x up .001*y }\n%s"
+                      "light_source { 5*y, rgb <3,2,1> }\n"
+                      "plane { -z, 0 rotate 45*x pigment { rgb .5 } finish { ambient 0 diffuse 1 } }\n",
+                 cases[k].boxes);
+        render_mean(text, 64, 4, mean);
+        for (int c = 0; c < 3; c++) {
+            wanted[c] = (3 - c) * 0.5 * sqrt(0.5);
+            for (int i = 0; i < cases[k].count; i++)
+                wanted[c] *= faded(colors[c], cases[k].of[i][0], cases[k].of[i][1], cases[k].of[i][2]);
+        }
+        expect_color(mean, wanted, 4e-3, cases[k].boxes);
+    }
+}
+
 /* ---- single scattering ---- */
 
 /* A ball of smoke of radius 1: what it scatters and extinguishes where density is 1; density falls from its middle
@@ -286,10 +339,10 @@ static void sets_recombine(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadow_rays_obey_beer),   cmocka_unit_test(smoke_by_a_shining_ball),
-        cmocka_unit_test(smoke_by_a_light_source), cmocka_unit_test(smoke_lights_a_plane),
-        cmocka_unit_test(smoke_behind_a_pane),     cmocka_unit_test(white_smoke_vanishes),
-        cmocka_unit_test(sets_recombine),
+        cmocka_unit_test(shadow_rays_obey_beer),   cmocka_unit_test(shadow_rays_fade),
+        cmocka_unit_test(smoke_by_a_shining_ball), cmocka_unit_test(smoke_by_a_light_source),
+        cmocka_unit_test(smoke_lights_a_plane),    cmocka_unit_test(smoke_behind_a_pane),
+        cmocka_unit_test(white_smoke_vanishes),    cmocka_unit_test(sets_recombine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
