@@ -83,7 +83,7 @@ static void shadow_rays_fade(void **state)
     static const struct {
         const char *boxes;
         int count;
-        double of[4][3]; /* a way, fade_distance and fade_power */
+        double of[9][3]; /* a way, fade_distance and fade_power */
     } cases[] = {
         {BOX("1", "3", "fade_distance 1.5 fade_power 2"), 1, {{2, 1.5, 2}}},
         {BOX("1", "3", "fade_distance 4 fade_power 1001"), 1, {{2, 4, 1001}}},
@@ -96,6 +96,15 @@ static void shadow_rays_fade(void **state)
         {BOX("1", "4", "fade_distance 2 fade_power 1") BOX("2", "3", "fade_distance .5 fade_power 3"),
          4,
          {{1, 2, 1}, {1, 2, 1}, {1, .5, 3}, {1, 2, 1}}},
+        {BOX("1", "3", "fade_distance 2 fade_power 1") BOX("1.5", "4", "fade_distance .5 fade_power 3")
+             BOX("2", "4.5", "fade_distance 3 fade_power 2"),
+         9,
+         {{.5, 2, 1}, {.5, 2, 1}, {.5, .5, 3}, {1, 2, 1}, {1, .5, 3}, {1, 3, 2}, {1, .5, 3}, {1, 3, 2}, {.5, 3, 2}}},
+        /* the camera stands in it, and POV-Ray does not know */
+        {"box { <-1,-1.25,-3>, <1,1,1> pigment { rgbt 1 } interior { fade_color <.2,.5,.8> fade_distance 1 fade_power "
+         "2 } }",
+         1,
+         {{1, 1, 2}}},
         {BOX("4", "6", "fade_distance 1 fade_power 2"), 1, {{1, 1, 2}}},
         {BOX("-1.25", "1", "fade_distance 1 fade_power 2"), 2, {{1, 1, 2}, {1, 1, 2}}}, /* and to the camera */
     };
