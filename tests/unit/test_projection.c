@@ -196,6 +196,54 @@ static void walls(void **state)
     close_world(&world);
 }
 
+/* A closed board is seen along its thickness, however it is turned and however many triangles its edges have. */
+static void boards(void **state)
+{
+    (void)state;
+    static const double turns[] = {0, 25, -60, 140};
+    for (int k = 0; k < 8; k++) {
+        const double turn = turns[k % 4] * PI / 180, w = 2, h = 3, thick = k < 4 ? 0.1 : 0.4;
+        const Vec3 x = {cos(turn), 0, -sin(turn)}, z = {sin(turn), 0, cos(turn)}, middle = {1, 2, 5};
+        const int front = vec_dot(vec_sub(vec3(0, 1, -20), middle), z) < 0; /* of the camera */
+        const Vec3 towards = front ? z : vec_neg(z), u = front ? x : vec_neg(x);
+        char text[8000];
+        size_t used = (size_t)snprintf(text, sizeof text,
+                                       HEAD "mesh2 { vertex_vectors { 56, <0,0,0>,<%g,0,0>,<0,%g,0>,<%g,%g,0>,"
+                                            "<0,0,%g>,<%g,0,%g>,<0,%g,%g>,<%g,%g,%g>",
+                                       w, h, w, h, thick, w, thick, h, thick, w, h, thick);
+        for (int i = 0; i < 24; i++) /* along the left edge */
+            used += (size_t)snprintf(text + used, sizeof text - used, ",<0,%g,0>,<0,%g,%g>", h * (i + 1) / 25,
+                                     h * (i + 1) / 25, thick);
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 "} face_indices { 60, <1,3,7>,<1,7,5>,<0,1,5>,<0,5,4>,<2,6,7>,<2,7,3>,<0,2,3>,"
+                                 "<0,3,1>,<4,5,7>,<4,7,6>");
+        for (int i = 0; i < 25; i++) {
+            const int a = i ? 6 + 2 * i : 0, b = i ? 7 + 2 * i : 4, c = i < 24 ? 8 + 2 * i : 2, d = i < 24 ? c + 1 : 6;
+            used += (size_t)snprintf(text + used, sizeof text - used, ",<%d,%d,%d>,<%d,%d,%d>", a, b, d, a, d, c);
+        }
+        snprintf(text + used, sizeof text - used, "} translate <%g,%g,%g> rotate y*%g translate <1,2,5> }", -w / 2,
+                 -h / 2, -thick / 2, turns[k % 4]);
+        World world = open_world(text, "A=#1:uv=planar", 0.5);
+        const Vec3 p = vec_add(vec_mad(vec_mad(middle, u, 0.3), towards, -thick / 2), vec3(0, 0.7, 0));
+        check_uv(&world, "board", p, towards, 0.5 * (w / 2 + 0.3), 0.5 * (h / 2 + 0.7));
+        close_world(&world);
+    }
+}
+
+/* A floor of copies of a tile: its UV begin at the corner of all. */
+static void copies(void **state)
+{
+    (void)state;
+    World world =
+        open_world(HEAD "#declare Tile = mesh { triangle { 0, <1,0,0>, <1,0,1> } triangle { 0, <1,0,1>, <0,0,1> } }"
+                        " #for (I, 2, 7) object { Tile translate <I,0,I> } #end",
+                   "A=Tile:uv=planar", 1);
+    /* The longest edge of the copies' hull runs along the diagonal. */
+    const double r = sqrt(0.5);
+    check_uv(&world, "copies", vec3(4.5, 0, 4.25), vec3(0, -1, 0), r * (4.5 + 4.25 - 4), r * (4.25 - 4.5 + 1));
+    close_world(&world);
+}
+
 /* ---- cylinder ---- */
 
 static void cylinder(void **state)
@@ -277,9 +325,9 @@ static void all_follow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(box),        cmocka_unit_test(box_from_inside), cmocka_unit_test(floors),
-        cmocka_unit_test(walls),      cmocka_unit_test(cylinder),        cmocka_unit_test(chosen_by_itself),
-        cmocka_unit_test(all_follow),
+        cmocka_unit_test(box),      cmocka_unit_test(box_from_inside),  cmocka_unit_test(floors),
+        cmocka_unit_test(walls),    cmocka_unit_test(boards),           cmocka_unit_test(copies),
+        cmocka_unit_test(cylinder), cmocka_unit_test(chosen_by_itself), cmocka_unit_test(all_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
