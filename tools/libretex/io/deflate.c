@@ -18,18 +18,17 @@ enum { ZLIB_LEVEL = 3, ZLIB_LEVEL_MOST = 12 };
  * 16384 codes, so that the Huffman codes follow the data. */
 enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
 
-typedef struct Deflater {
+typedef struct RetexDeflater {
     struct isal_zstream stream;
     unsigned char level[LEVEL_BYTES];
-} Deflater;
+} RetexDeflater;
 
 /* By ISA-L at its level 0 or LEVEL. format: IGZIP_DEFLATE or IGZIP_ZLIB; flush: NO_FLUSH where the stream ends here, or
  * FULL_FLUSH. */
-static size_t deflate_by_isal(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
-                              int level, int format, int flush)
+static size_t deflate_by_isal(RetexDeflater *deflater, unsigned char *packed, size_t capacity,
+                              const unsigned char *bytes, size_t count, int level, int format, int flush)
 {
-    Deflater *deflater = count <= UINT32_MAX && capacity <= UINT32_MAX ? malloc(sizeof *deflater) : NULL;
-    if (!deflater)
+    if (count > UINT32_MAX || capacity > UINT32_MAX)
         return 0;
     struct isal_zstream *stream = &deflater->stream;
     isal_deflate_stateless_init(stream);
@@ -39,10 +38,7 @@ static size_t deflate_by_isal(unsigned char *packed, size_t capacity, const unsi
     stream->end_of_stream = flush == NO_FLUSH, stream->flush = (uint16_t)flush;
     stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
     stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
-    const int done = isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0;
-    const size_t packed_bytes = done ? stream->total_out : 0;
-    free(deflater);
-    return packed_bytes;
+    return isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0 ? stream->total_out : 0;
 }
 
 int retex_zlib_open(RetexZlib *zlib)
@@ -51,13 +47,16 @@ int retex_zlib_open(RetexZlib *zlib)
         zlib->compressor = libdeflate_alloc_compressor(ZLIB_LEVEL);
     if (!zlib->decompressor)
         zlib->decompressor = libdeflate_alloc_decompressor();
-    return zlib->compressor && zlib->decompressor;
+    if (zlib->effort != RETEX_ZLIB_SMALL && !zlib->deflater)
+        zlib->deflater = malloc(sizeof *zlib->deflater);
+    return zlib->compressor && zlib->decompressor && (zlib->effort == RETEX_ZLIB_SMALL || zlib->deflater);
 }
 
 void retex_zlib_close(RetexZlib *zlib)
 {
     libdeflate_free_compressor(zlib->compressor);
     libdeflate_free_decompressor(zlib->decompressor);
+    free(zlib->deflater);
     *zlib = (RetexZlib){.effort = zlib->effort};
 }
 
@@ -66,8 +65,8 @@ size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capaci
 {
     return zlib->effort == RETEX_ZLIB_SMALL
                ? libdeflate_zlib_compress(zlib->compressor, bytes, count, packed, capacity)
-               : deflate_by_isal(packed, capacity, bytes, count, zlib->effort == RETEX_ZLIB_FAST ? LEVEL : 0,
-                                 IGZIP_ZLIB, NO_FLUSH);
+               : deflate_by_isal(zlib->deflater, packed, capacity, bytes, count,
+                                 zlib->effort == RETEX_ZLIB_FAST ? LEVEL : 0, IGZIP_ZLIB, NO_FLUSH);
 }
 
 unsigned char *retex_zlib_compress_most(const unsigned char *bytes, size_t count, size_t *packed_bytes)
@@ -94,5 +93,10 @@ size_t retex_deflate_bound(size_t bytes)
 
 size_t retex_deflate(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count, int is_last)
 {
-    return deflate_by_isal(packed, capacity, bytes, count, LEVEL, IGZIP_DEFLATE, is_last ? NO_FLUSH : FULL_FLUSH);
+    RetexDeflater *deflater = malloc(sizeof *deflater);
+    const int flush = is_last ? NO_FLUSH : FULL_FLUSH;
+    const size_t piece =
+        deflater ? deflate_by_isal(deflater, packed, capacity, bytes, count, LEVEL, IGZIP_DEFLATE, flush) : 0;
+    free(deflater);
+    return piece;
 }

@@ -17,6 +17,7 @@ typedef struct RetexZlib {
     RetexZlibEffort effort;
     struct libdeflate_compressor *compressor;
     struct libdeflate_decompressor *decompressor;
+    struct RetexDeflater *deflater; /* of another effort than RETEX_ZLIB_SMALL */
 } RetexZlib;
 
 /* 0 where memory is short. Does nothing where all is there already. */

@@ -248,12 +248,10 @@ int retex_output_write(RetexOutput *output, const void *data, size_t bytes, Rete
 
 int retex_output_is_file(const char *path)
 {
-    RetexOutput *output = strcmp(path, "-") == 0 ? NULL : output_new(path, NULL);
+    RetexOutput output = {.descriptor = -1};
     int mode;
-    const int is_file = output && !resolve(output, path, &mode, NULL) && !output->direct;
 
-    retex_output_abandon(&output);
-    return is_file;
+    return strcmp(path, "-") != 0 && !resolve(&output, path, &mode, NULL) && !output.direct;
 }
 
 int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err)
