@@ -110,6 +110,12 @@ static void checkers(void **state)
     assert_false(pigment_is_opaque(&p));
     colors[0].color = colors[1].color;
     assert_true(pigment_is_constant(&p));
+    for (int k = 0; k < 5; k++) {
+        Rgbft *c = &colors[1].color, was = *c;
+        *(float *[]){&c->r, &c->g, &c->b, &c->filter, &c->transmit}[k] += 0.125f;
+        assert_false(pigment_is_constant(&p));
+        *c = was;
+    }
 }
 
 /* Seen in POV-Ray: 1e-10 below the end of mortar is mortar, 1e-11 below it is brick. */
