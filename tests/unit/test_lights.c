@@ -213,6 +213,46 @@ static void densities_agree(void **state)
     expect_densities(0.3);
 }
 
+/* Each light, near or infinitely far, is chosen as often as its probability tells. */
+static void picks_are_as_often_as_told(void **state)
+{
+    (void)state;
+    enum { N = 20000, LIGHTS = 64 };
+    Scene *scene = test_scene(HEAD SHEET(
+        3) "sphere { 2*y, .5 texture { Shine } } light_source { 3, rgb 1 }"
+           "light_source { <1, 5, 0>, rgb .2 parallel point_at 0 } light_source { y, .5 parallel point_at x }"
+           "light_source { <0, 9, 1>, rgb <0, 2, 1> parallel point_at 0 } sky_sphere { pigment { gradient y } }");
+    const char *specs[] = {"Shine", "sky"};
+    assert_int_equal(scene_resolve_lamps(scene, specs, 2, NULL), 0);
+    for (int k = 0; k < 40; k++) {
+        const LightSampleContext p = random_lit(k);
+        double told[LIGHTS] = {0}, often[LIGHTS] = {0}, all = 0;
+        int places[LIGHTS], count = 0;
+        Lights *lights;
+        assert_int_equal(lights_create(&lights, scene, k % 2 ? 0.3 : 0, NULL), 0);
+        for (int i = 0; i < N; i++) {
+            const LightPick pick = lights_pick(lights, &p, (float)((i + 0.5) / N), 0.5f);
+            const int place = 32 * pick.entry + pick.face + 1;
+            int of = 0;
+            assert_true(pick.entry >= 0 && pick.probability > 0);
+            while (of < count && places[of] != place)
+                of++;
+            assert_true(of < LIGHTS);
+            count += of == count;
+            places[of] = place, told[of] = pick.probability, often[of] += 1.0 / N;
+        }
+        for (int of = 0; of < count; of++) {
+            all += told[of];
+            if (fabs(told[of] - often[of]) > 5.0 / N)
+                fail_msg("light %d: told %.5f, chosen %.5f", places[of], told[of], often[of]);
+        }
+        if (count < 8 || fabs(all - 1) > 1e-3)
+            fail_msg("%d lights with %.5f", count, all);
+        lights_close(&lights);
+    }
+    scene_close(&scene);
+}
+
 /* Lamps share a part of the samples alike; the rest goes by what lights give. */
 static void each_lamp_has_a_share(void **state)
 {
@@ -296,8 +336,7 @@ static void faces_are_sampled_uniformly(void **state)
     double counts[3][4] = {{0}};
     assert_int_equal(mesh_light_create(&light, &scene->primitives[0], NULL), 0);
     for (int k = 0; k < N * N; k++) {
-        const MeshLightPoint p =
-            mesh_light_point(light, -1, ((float)(k % N) + 0.5f) / N, ((float)(k / N) + 0.5f) / N);
+        const MeshLightPoint p = mesh_light_point(light, -1, ((float)(k % N) + 0.5f) / N, ((float)(k / N) + 0.5f) / N);
         Surface s;
         mesh_light_surface(&p, &scene->primitives[0], &s);
         assert_true(fabs(p.density - 1 / 3.0) < 1e-6 && s.b1 >= 0 && s.b2 >= 0 && s.b1 + s.b2 <= 1);
@@ -672,6 +711,7 @@ int main(void)
         cmocka_unit_test(row_of_a_new_kind),
         cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
+        cmocka_unit_test(picks_are_as_often_as_told),
         cmocka_unit_test(each_lamp_has_a_share),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(even_numbers_are_even_points),
