@@ -101,6 +101,12 @@ pigment_pattern { slope y color_map { [0 rgb 0] [1 rgb 1] } } normal_map { [.3 b
 aoi .8 scallop_wave frequency 3 scale .2
 bump_map { png "bumps.png" interpolate 3 bump_size 5 } rotate 25*y scale <1.2,.9,1>
 bump_map { png "bumps.png" once interpolate 3 bump_size 8 } translate <-.5,-.4,0> scale 2 translate <12.21,40.7,0>
+spherical 1 scale 1.8 translate <16.5,40.5,-1>
+boxed 1 scale 1.6 translate <20.2,40.6,-.8>
+planar .8 scale 2 rotate 50*x translate <24.42,40.7,-1>
+cylindrical .9 scale <1.7,1,1.5> translate <28.6,40.7,-.9>
+mandel 20 .5 scale .7 translate <0,44.77,0>
+julia <-.4,.6> 15 .5 scale .7 translate <4.07,44.77,0>
 '''.strip().split('\n')
 RADIUS, STEP, CELL = 1.5, 4.07, 32   # of spheres; between them; pixels of each
 COLUMNS = 8
