@@ -1,5 +1,6 @@
 /* density_file: numbers of a grid over the unit cube. Pattern.number is the kind of interpolation: 0 none, 1 linear,
  * 2 cubic. */
+#include <stdint.h>
 #include "base/polynomial.h"
 #include "pattern/density_file.h"
 
@@ -14,13 +15,11 @@ static double at(const DensityFile *file, int x, int y, int z)
     return value / largest;
 }
 
-/* Beyond the upper end the grid goes on from its start; before the lower end POV-Ray takes the first number along x and
- * z, and the last along y. */
+/* Beyond the upper end the grid goes on from its start; before the lower end POV-Ray's number has no sign, so that
+ * 2^32 - 1 comes before 0. */
 static int index_of(const DensityFile *file, int axis, int i)
 {
-    if (i < 0)
-        return axis == 1 ? file->size[1] - 1 : 0;
-    return i % file->size[axis];
+    return (int)((uint32_t)i % (uint32_t)file->size[axis]);
 }
 
 /* Weights of up to four numbers, and the first one's place from the cell. */

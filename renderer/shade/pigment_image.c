@@ -73,11 +73,17 @@ static int wrapped(int i, int n)
     return (i %= n) < 0 ? i + n : i;
 }
 
-/* Column i, row j from below, of the image repeated; in the working space. */
+static int clamped(int i, int n)
+{
+    return i < 0 ? 0 : i < n ? i : n - 1;
+}
+
+/* Column i, row j from below, of the image repeated, or with `once` of its edges; in the working space. */
 static Rgbft texel(const Pigment *pigment, int i, int j)
 {
     const ImageMap *image = pigment->image;
-    const int x = wrapped(i, image->width), y = wrapped(j, image->height);
+    const int x = image->once ? clamped(i, image->width) : wrapped(i, image->width),
+              y = image->once ? clamped(j, image->height) : wrapped(j, image->height);
     const float *through = image->transparency
                                ? image->transparency[(size_t)(image->height - 1 - y) * (size_t)image->width + (size_t)x]
                                : NULL;
@@ -160,7 +166,8 @@ static Rgbft interpolate(const Pigment *pigment, Vec2 uv)
 static Rgbft untinted(const Pigment *pigment, Vec2 uv)
 {
     const ImageMap *image = pigment->image;
-    const int blends = image->interpolate && !working_is_linear(pigment->space);
+    /* a texture's own look-up repeats it, is scene-linear, and weighs colours by their alpha */
+    const int blends = image->interpolate && (image->once || image->has_alpha || !working_is_linear(pigment->space));
     float rgba[4];
 
     if (image_is_outside(image, uv))

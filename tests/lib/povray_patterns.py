@@ -158,11 +158,17 @@ PIGMENTS += [f'tiling {n} scale {s} translate <.123,0,.077>' for n in (26, 27) f
 PIGMENTS += [f'tiling 25 scale {s} translate <.123,0,.077>' for s in
              (1e-5, 1e-4, .001, *(n / 200 for n in range(2, 41)), .3, .4, .5)]
 
+# What ends at a distance of 1, so large that the points are within it.
+ENDING = [p + ' scale 4.5' for p in ('spherical', 'spherical poly_wave 2.3', 'cylindrical', 'boxed', 'boxed cubic_wave',
+                                     'cylindrical scallop_wave frequency .7', 'planar frequency 3 triangle_wave')]
+ENDING += ['cylindrical scale 4 turbulence .3', 'boxed rotate <20,30,40> scale <3,4,5>', 'crackle form <3,0,0> scale .2']
+
 
 def main():
     rng = random.Random(11)
     names = ['= ' + p for p in PATTERNS] + [f'= {p} noise_generator {g}' for p in PATTERNS[:-14] for g in (1, 3)]
     names += ['= ' + p for p in GEOMETRIC] + [f'= bozo warp {{ {w} }}' for w in WARPS] + ['~ ' + p for p in PIGMENTS]
+    names += ['= ' + p for p in ENDING]
     lines = ['#version 3.7; global_settings { assumed_gamma 1 } camera { location -z look_at 0 }']
     points = {}
     for i, name in enumerate(names):

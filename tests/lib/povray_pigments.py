@@ -78,6 +78,18 @@ PIGMENTS = [
     ('image_pattern { function 4,5 { x*y } interpolate 2 }', 2),
     ('image_pattern { function 4,5 { pigment { gradient x color_map { [0 rgbt <1,0,0,.25>] [1 rgb y] } } } use_alpha }',
      2),
+    *[(f'image_map {{ {COLOURS} once interpolate {kind} filter all .2 }} translate -.5', .55) for kind in (2, 3, 4)],
+    *[(f'image_map {{ png "tests/data/colours-alpha.png" {kind} }} translate -.5', .55)
+      for kind in ('interpolate 2', 'once interpolate 2', 'interpolate 3', 'once interpolate 3', 'interpolate 4')],
+    (f'image_map {{ {COLOURS} once interpolate 2 map_type 1 }}', 2),
+    (f'image_map {{ {COLOURS} once interpolate 3 map_type 2 }} scale <1,2,1>', 2),
+    (f'image_map {{ {COLOURS} once interpolate 3 repeat <2,3> offset <.3,.2> }} translate -.5', .6),
+    ('image_pattern { png "tests/data/colours-alpha.png" use_alpha interpolate 2 once } translate -.5', .6),
+    (f'image_pattern {{ {COLOURS} use_alpha once map_type 2 }}', 1.5),
+    ('density_file df3 "tests/data/density.df3" translate -.5', .55),
+    ('density_file df3 "tests/data/density.df3" interpolate 2 translate -.5', .53),
+    ('density_file df3 "tests/data/density16.df3" interpolate 2 translate -.5', .55),
+    ('pigment_pattern { checker rgb <1,.2,0>, rgb <.3,.1,.8> scale .4 turbulence .2 }', 3),
 ]
 
 

@@ -12,6 +12,7 @@
 #include "sdl/texture/texture.h"
 #include "shape/csg.h"
 #include "shade/pigment.h"
+#include "shade/pigment_image.h"
 
 static const PatternField *
 field_new(Sdl *sdl, double (*value)(const void *data, const PatternPoint *point, long *steps), const void *data)
@@ -65,10 +66,22 @@ static double pigment_grey(const void *data, const PatternPoint *point, long *st
     return grey(pigment_as_written(data, point));
 }
 
-static double pigment_transmit(const void *data, const PatternPoint *point, long *steps)
+/* Of an image_pattern's image: 0 outside of one with `once`. */
+static double image_grey(const void *data, const PatternPoint *point, long *steps)
 {
+    const ImageMap *image = ((const Pigment *)data)->image;
+    return image_is_outside(image, pigment_image_uv(image, point->p)) ? 0 : pigment_grey(data, point, steps);
+}
+
+/* With `use_alpha`; of an image without alpha POV-Ray takes the red. */
+static double image_transmit(const void *data, const PatternPoint *point, long *steps)
+{
+    const ImageMap *image = ((const Pigment *)data)->image;
     (void)steps;
-    return (double)pigment_as_written(data, point).transmit;
+    if (image_is_outside(image, pigment_image_uv(image, point->p)))
+        return 0;
+    const Rgbft c = pigment_as_written(data, point);
+    return (double)(image->has_alpha ? c.transmit : c.r);
 }
 
 /* A copy whose colour is not decoded at the end of the scene. */
@@ -101,7 +114,7 @@ static void parse_image_field(Sdl *sdl, ParsedPigment *pigment)
         if (!image->colorspace[0])
             strcpy(image->colorspace, "linear"); /* the file's numbers are values, not colours */
     }
-    pigment->pigment.pattern.data = field_new(sdl, use_alpha ? pigment_transmit : pigment_grey, as_written(sdl, of));
+    pigment->pigment.pattern.data = field_new(sdl, use_alpha ? image_transmit : image_grey, as_written(sdl, of));
 }
 
 /* ---- density_file ---- */
