@@ -86,6 +86,7 @@ PIGMENTS = [
     (f'image_map {{ {COLOURS} once interpolate 3 repeat <2,3> offset <.3,.2> }} translate -.5', .6),
     ('image_pattern { png "tests/data/colours-alpha.png" use_alpha interpolate 2 once } translate -.5', .6),
     (f'image_pattern {{ {COLOURS} use_alpha once map_type 2 }}', 1.5),
+    (f'image_pattern {{ {COLOURS} once interpolate 4 }} translate -.5', .6),
     ('density_file df3 "tests/data/density.df3" translate -.5', .55),
     ('density_file df3 "tests/data/density.df3" interpolate 2 translate -.5', .53),
     ('density_file df3 "tests/data/density16.df3" interpolate 2 translate -.5', .55),
