@@ -15,6 +15,7 @@ COUNTS = [5, 5, 5, 5, 2, 2, 5, 4, 2, 1, 4, 1, 1, 1, 1, 6, 6, 3, 1, 4, 3, 6, 1, 1
           1, 3, 4, 3, 6, 1, 1, 4, 1, 6, 5, 1, 1, 1, 4, 1, 3, 0, 1, 1, 7, 5, 6, 1, 1, 1, 3, 0, 6, 6,
           4, 1, 5, 4, 6, 1, 4, 7, 2, 0, 2, 3, 1, 1, 2, 6, 0, None, 1]
 REVOLVED = {0, 1, 2, 3, 15, 21, 34, 39, 50, 67, 75}  # switch, offset, angle at the end
+STEEP = (8, 30)  # with the strengths above they are nearly everywhere at their limits, -10 and 10
 HETERO_MF, RIDGE, RIDGED_MF, HELIX1, HELIX2, SPIRAL, POLYTUBES, NOISE_GENERATOR = 29, 58, 59, 25, 26, 64, 52, 78
 BODIES = [
     'sum(i,1,5,i*a)', 'prod(i,1,4,a+i*b)', 'sum(i,1,3,prod(j,1,i,a+j*b))', 'select(a,b,2,a*b)', 'select(b-.5,a,3*b)',
@@ -52,6 +53,12 @@ def points(rng):
             if number == NOISE_GENERATOR:
                 a[0] = i % 4
             yield number, p + a
+    rng = random.Random(8)
+    for number in STEEP:
+        for _ in range(12):
+            p = [round(rng.uniform(-1.5, 1.5), 3) for _ in range(3)]
+            yield number, p + [round(rng.uniform(1e-4, 2e-3), 6)] + [round(rng.uniform(.1, 1.5), 3)
+                                                                    for _ in range(COUNTS[number] - 1)]
 
 
 def main():
