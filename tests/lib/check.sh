@@ -63,7 +63,9 @@ log=$logs/$(echo "$name" | tr / .).log
 case $name in long/* | mutants/*) limit=0 ;; *) limit=${JOB_SECONDS:-1200} ;; esac
 timeout --foreground -k 10 "$limit" "$@" >"$log" 2>&1 </dev/null
 status=$?
-echo "# exit status $status" >>"$log"
+times >"$log.times" # in a file: a command substitution would be another process, without children
+echo "# exit status $status after $(sed -n 2p "$log.times") of processor time" >>"$log"
+rm "$log.times"
 '
 xargs -r -P "$JOBS" -L 1 sh -c "$run_job" job <"$logs/jobs"
 
