@@ -101,7 +101,8 @@ static void uv(const Surface *surface, ShapeUv *out)
     Vec3 p = shape_local_point(surface);
 
     p.y -= surface->primitive->shape.r1 / 2;
-    out->natural = shape_angles(p);
+    out->uv = out->natural = shape_angles(p);
+    out->has_uv = 1;
 }
 
 static int inside(const Shape *shape, Vec3 p)

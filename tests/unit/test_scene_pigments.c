@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "shade/pigment.h"
+#include "shape/surface.h"
 
 /* POV-Ray prints floats. */
 static int same_color(const double *expected, Rgbft c)
@@ -83,6 +84,69 @@ static void patterns_that_see_normals(void **state)
             fail_msg("%s: %.6f is not %.6f", cases[i].body, got, cases[i].value);
         scene_close(&scene);
     }
+}
+
+/* What moves a texture with uv_mapping, as seen in POV-Ray's pictures: transforms where it says uv_mapping itself, or
+ * in a pigment that does, and none outside of these. */
+static void uv_mapping_is_moved_within(void **state)
+{
+    static const struct {
+        const char *texture;
+        double value; /* of gradient x at u = .6 */
+    } cases[] = {
+        {"pigment { uv_mapping gradient x scale .5 }", 0.2},
+        {"texture { uv_mapping pigment { gradient x } scale .5 }", 0.2},
+        {"texture { uv_mapping pigment { gradient x } translate .25*x }", 0.35},
+        {"texture { uv_mapping pigment { gradient x scale .5 } }", 0.2},
+        {"texture { pigment { uv_mapping gradient x } scale .5 }", 0.6},
+        {"texture { uv_mapping pigment { uv_mapping gradient x scale .5 } translate .25*x }", 0.2},
+        {"texture { T scale .5 }", 0.6},
+        {"texture { Scaled }", 0.2},
+        {"texture { Scaled translate .25*x }", 0.2},
+        {"texture { T } scale .5", 0.6},
+        {"texture { uv_mapping pigment { gradient x } scale .5 } translate .1*x scale 3", 0.2},
+        {"pigment { uv_mapping gradient x } scale .5", 0.6},
+        {"material { texture { T } scale .5 }", 0.6},
+        {"material { texture { Scaled } } scale 2", 0.2},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 V37 "#declare T = texture { uv_mapping pigment { gradient x } };"
+                     "#declare Scaled = texture { uv_mapping pigment { gradient x } normal { bumps } scale .5 };"
+                     "sphere { 0, 1 %s }",
+                 cases[i].texture);
+        Scene *scene = parse(text);
+        const Texture *texture = only(scene)->texture;
+        const double got = (double)pigment_eval(texture->pigment, vec3(9, 9, 9), (Vec2){0.6, 0}).r;
+        if (fabs(got - cases[i].value) > 1e-6)
+            fail_msg("%s: %.6f is not %.6f", cases[i].texture, got, cases[i].value);
+        if (texture->normal)
+            assert_true(texture->normal->uv_mapping &&
+                        transform_point(&texture->normal->transform, vec3(1, 0, 0)).x == 0.5);
+        scene_close(&scene);
+    }
+}
+
+/* An ovus has the UV of a sphere about its middle; POV-Ray's picture has .77, .40 at the first point. */
+static void uv_mapping_of_an_ovus(void **state)
+{
+    static const double cases[2][2] = {{0.05, -0.05}, {0.35, -0.3}};
+    (void)state;
+    Scene *scene = parse(V37 "ovus { .6, .3 pigment { uv_mapping rgb 1 } }");
+    for (int i = 0; i < 2; i++) {
+        const double x = cases[i][0], y = cases[i][1], z = -sqrt(0.36 - x * x - y * y); /* of the lower sphere */
+        const Ray ray = {{x, y, -5}, {0, 0, 1}, 0, INFINITY};
+        const Hit hit = {.t = 5 + z, .primitive = 0};
+        Surface surface;
+        surface_at(&surface, scene, &ray, &hit);
+        const Vec2 uv = surface_uv(&surface).uv;
+        assert_near(uv.u, 1 + atan2(z, x) / (2 * PI));
+        assert_near(uv.v, 0.5 + atan2(y - 0.15, hypot(x, z)) / PI);
+        assert_true(i || (fabs(uv.u - 0.77) < 0.01 && fabs(uv.v - 0.40) < 0.01));
+    }
+    scene_close(&scene);
 }
 
 /* A function in a pattern in a function, and so on: nothing is so deep that the stack ends. */
@@ -166,6 +230,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colors_are_povray),           cmocka_unit_test(patterns_that_see_normals),
+        cmocka_unit_test(uv_mapping_is_moved_within),  cmocka_unit_test(uv_mapping_of_an_ovus),
         cmocka_unit_test(nested_patterns_end),         cmocka_unit_test(density_files_are_checked),
         cmocka_unit_test(blends_in_the_working_space), cmocka_unit_test(large_maps_are_refused),
     };

@@ -61,9 +61,16 @@ static int accept_part_ident(Sdl *sdl, const ParsedTexture **texture)
     return 1;
 }
 
-/* One item of a texture's body; *whole becomes 1 where a pattern took the rest of it. */
-static void texture_item(Sdl *sdl, const ParsedTexture **texture, char end, int *whole)
+/* A texture's body while it is read. */
+typedef struct Body {
+    const ParsedTexture *texture;
+    int uv_mapping; /* it says so itself: until its end, transforms move its pigment and its normal all the same */
+    int is_whole;   /* a pattern took the rest of it */
+} Body;
+
+static void texture_item(Sdl *sdl, Body *body, char end)
 {
+    const ParsedTexture **texture = &body->texture;
     Transform by;
     const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
     if (known)
@@ -76,33 +83,27 @@ static void texture_item(Sdl *sdl, const ParsedTexture **texture, char end, int 
         ParsedTexture *changed = plain_copy(sdl, *texture);
         set_normal(changed, normal_changed(sdl, parsed_normal(changed->texture.normal), 0, sdl_optional_bool(sdl, 1)));
         *texture = changed;
-    } else if (sdl_accept(sdl, "uv_mapping")) {
-        ParsedTexture *changed = plain_copy(sdl, *texture);
-        changed->texture.uv_mapping = sdl_optional_bool(sdl, 1);
-        set_pigment(changed, pigment_new(sdl, parsed_pigment(changed->texture.pigment)));
-        set_normal(changed,
-                   normal_changed(sdl, parsed_normal(changed->texture.normal), changed->texture.uv_mapping, 0));
-        *texture = changed;
-    } else if (sdl_accept(sdl, "tiles"))
+    } else if (sdl_accept(sdl, "uv_mapping"))
+        body->uv_mapping = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "tiles"))
         *texture = parse_tiles(sdl);
     else if (sdl_accept(sdl, "material_map"))
         *texture = parse_material_map(sdl);
     else {
-        *texture = parse_texture_pattern(sdl, end, (*texture)->texture.uv_mapping);
-        *whole = 1;
+        *texture = parse_texture_pattern(sdl, end, body->uv_mapping || (*texture)->texture.uv_mapping);
+        body->is_whole = 1;
     }
 }
 
 const ParsedTexture *parse_texture_body(Sdl *sdl, char end)
 {
     const char closing[2] = {end, 0};
-    const ParsedTexture *texture = textures_of(sdl)->default_texture;
-    int whole = 0;
+    Body body = {textures_of(sdl)->default_texture, 0, 0};
     statement_begin(sdl);
-    while (!whole && !sdl_accept(sdl, closing))
-        texture_item(sdl, &texture, end, &whole);
+    while (!body.is_whole && !sdl_accept(sdl, closing))
+        texture_item(sdl, &body, end);
     statement_end(sdl);
-    return texture;
+    return body.uv_mapping && !body.is_whole ? texture_uv_mapped(sdl, body.texture) : body.texture;
 }
 
 const ParsedTexture *parse_texture(Sdl *sdl)

@@ -92,7 +92,8 @@ const ParsedTexture *texture_nested(Sdl *sdl, const ParsedTexture *texture, cons
 
 const ParsedTexture *texture_uv_mapped(Sdl *sdl, const ParsedTexture *texture)
 {
-    if (!texture || (texture->texture.pigment->uv_mapping && !texture->below && !texture->map))
+    if (!texture ||
+        (texture->texture.uv_mapping && texture->texture.pigment->uv_mapping && !texture->below && !texture->map))
         return texture;
     return moved(sdl, texture, &(Move){transform_identity(), 1});
 }
