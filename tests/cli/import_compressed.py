@@ -50,6 +50,8 @@ strip['meshes'][0]['primitives'][0]['mode'] = 5
 strip['meshes'] += [dict(strip['meshes'][0], name='again')]  # data that two primitives share
 strip['nodes'][1]['mesh'] = 1
 write('draco_strip.gltf', json.dumps(strip))
+strip['meshes'][0]['primitives'][0]['mode'] = strip['meshes'][1]['primitives'][0]['mode'] = 6
+write('draco_fan.gltf', json.dumps(strip))
 write('draco_integers.gltf', json.dumps(draco(DRACO['integers'], UINT, [
     ('POSITION', SHORT, 3, True), ('TEXCOORD_0', UBYTE, 2, True), ('NORMAL', BYTE, 3, True)])))
 sets = [('POSITION', FLOAT, 3, False), ('TEXCOORD_0', FLOAT, 2, False), ('TEXCOORD_1', FLOAT, 2, False),

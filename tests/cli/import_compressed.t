@@ -2,8 +2,8 @@
 % . "$TESTS/import_look.sh"
 $ /usr/bin/python3 $TESTS/import_compressed.py && reference
 
-# Draco: indices of any type, strips that are triangles in its data, data that two meshes share, integers.
-$ for m in draco_bytes draco_words draco_longs draco_strip draco_integers; do
+# Draco: indices of any type, strips and fans that are triangles in its data, data that two meshes share, integers.
+$ for m in draco_bytes draco_words draco_longs draco_strip draco_fan draco_integers; do
 +     look $m.gltf && same $m.exr reference.exr
 + done
 $ retex-diff -q --part normal --allow-inf --fail-abs 0.0005 draco_integers.exr reference.exr

@@ -66,6 +66,8 @@ def signed_uploads(server):
     name = hashlib.sha256(image).hexdigest() + '.jpg'
     for path in '/v1/uploads', signed('/v1/uploads', bytes(16)), signed('/v1/uploads', of='/v1'):
         expect(path, [send(server, image, path, method).status for method in ('POST', 'OPTIONS')], [403, 403])
+    path = signed('/v1/small/Floor=oak/32x.png?v=/v1/uploads')
+    expect('of a picture', [send(server, image, path, method).status for method in ('POST', 'OPTIONS')], [405, 405])
     path = signed('/v1/uploads')
     expect('asked before', send(server, b'', path, 'OPTIONS').status, 204)
     told = send(server, image, path)
