@@ -7,7 +7,8 @@ $ for m in draco_bytes draco_words draco_longs draco_strip draco_fan draco_integ
 +     look $m.gltf && same $m.exr reference.exr
 + done
 $ retex-diff -q --part normal --allow-inf --fail-abs 0.0005 draco_integers.exr reference.exr
-$ retex-import draco_strip.gltf -o strip 2>&1 | grep -o '[0-9]* triangles'
+$ for m in strip fan; do retex-import draco_$m.gltf -o $m 2>&1 | grep -o '[0-9]* triangles'; done
+> 4 triangles
 > 4 triangles
 
 # A second set of UV, and colours of bytes, which are what a factor is.
