@@ -30,10 +30,7 @@ $ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr
 ! retex-render: warning: p.png holds the picture only: a set needs .exr or .retex
 ! retex-render: warning: q.png holds the picture only: a set needs .exr or .retex
 $ ./render -o p.retex
-$ (
-+     timeout --foreground -s KILL 0.3 ./render --resume -o q.retex
-+     true
-+ ) 2>/dev/null
+$ (timeout --foreground -s KILL 0.3 ./render --resume -o q.retex || true) 2>/dev/null
 $ ./render --resume -o q.retex
 $ cmp p.retex q.retex
 $ ls *.partial

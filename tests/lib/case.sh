@@ -8,6 +8,7 @@
 #     !  a line of its standard error
 #     =  its exit status, if it is not 0
 #     %  a line of shell that all commands below begin with: functions, variables, a folder
+# A block that expects nothing ends at the first command that fails, in a loop too.
 # Empty lines and lines with # are comments. Files of earlier commands remain for later ones. $SCENES is the folder of
 # scenes, $TESTS that of the suite. A block with the command `skip-without COMMAND why` skips the rest of the file if
 # COMMAND is not installed, a block with `skip-unless COMMAND` if COMMAND fails. Programs of suite oiio find the plugins
@@ -36,7 +37,11 @@ newline='
 
 # Run $command and print its block into ../actual.
 run() {
-    sh -c "$functions$command" >../out 2>../err </dev/null
+    if grep -q '^[>!=]' ../expected; then
+        sh -c "$functions$command"
+    else
+        sh -ec "$functions$command"
+    fi >../out 2>../err </dev/null
     status=$?
     {
         printf '%s\n' "$command" | sed '1s/^/$ /; 1!s/^/+ /; s/^+ $/+/'
