@@ -3,22 +3,10 @@
 #include "shade/normal.h"
 #include "shade/pigment_image.h"
 
-static int wrapped(int i, int size)
-{
-    i %= size;
-    return i < 0 ? i + size : i;
-}
-
-static int clamped(int i, int size)
-{
-    return i < 0 ? 0 : i < size ? i : size - 1;
-}
-
 static double height_of(const BumpMap *map, int i, int j)
 {
     const ImageMap *m = &map->image;
-    i = m->once ? clamped(i, m->width) : wrapped(i, m->width);
-    j = m->once ? clamped(j, m->height) : wrapped(j, m->height);
+    i = image_texel(m, i, m->width), j = image_texel(m, j, m->height);
     return map->heights[(size_t)j * (size_t)m->width + (size_t)i];
 }
 

@@ -68,22 +68,11 @@ static Rgbft with_transparency(const ImageMap *image, const float rgba[4], float
     return (Rgbft){rgba[0], rgba[1], rgba[2], filter, transmit + alpha};
 }
 
-static int wrapped(int i, int n)
-{
-    return (i %= n) < 0 ? i + n : i;
-}
-
-static int clamped(int i, int n)
-{
-    return i < 0 ? 0 : i < n ? i : n - 1;
-}
-
 /* Column i, row j from below, of the image repeated, or with `once` of its edges; in the working space. */
 static Rgbft texel(const Pigment *pigment, int i, int j)
 {
     const ImageMap *image = pigment->image;
-    const int x = image->once ? clamped(i, image->width) : wrapped(i, image->width),
-              y = image->once ? clamped(j, image->height) : wrapped(j, image->height);
+    const int x = image_texel(image, i, image->width), y = image_texel(image, j, image->height);
     const float *through = image->transparency
                                ? image->transparency[(size_t)(image->height - 1 - y) * (size_t)image->width + (size_t)x]
                                : NULL;
