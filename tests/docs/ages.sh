@@ -40,6 +40,9 @@ says '^docs/speed.md was made from commit [0-9a-f]+, 62 commits before the last 
 page 'commit COMMIT'
 commits 49 subject
 says '' "50 commits are no age"
+echo more >>subject/file
+says '51 commits before' "a change that is not committed counts as the next commit"
+command git checkout -q subject
 commits 1 subject
 says '51 commits before' "51 commits are"
 page 'commit COMMIT with changes'

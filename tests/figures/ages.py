@@ -1,9 +1,10 @@
 """No page of measured figures is older than its subject by more than 50 commits: ages.py
 
 pages.txt, beside this file, names each page's subject. The page says from which commit it was made. From there to the
-last commit that touched the subject there may be 50 commits; a subject that nobody touched makes no page old. Prints a
-line for each page that is older, or is of no commit of this repository, and exits with 1. Pages whose material is not
-there cannot be made. Without the repository's history, as in a source package, there is nothing to check.
+last commit that touched the subject there may be 50 commits; a subject that nobody touched makes no page old. Changes of
+the subject that are not committed yet count as the next commit. Prints a line for each page that is older, or is of no
+commit of this repository, and exits with 1. Pages whose material is not there cannot be made. Without the repository's
+history, as in a source package, there is nothing to check.
 """
 import os
 import re
@@ -42,8 +43,9 @@ def wrong(page, subject):
         return f"docs/{page}.md was made from commit {found[1]} with changes: of no commit"
     if git("merge-base", "--is-ancestor", found[1], "HEAD").returncode:
         return f"docs/{page}.md was made from commit {found[1]}, which HEAD does not stand on"
-    last = git("log", "-1", "--format=%H", "--", *subject).stdout.strip()
-    count = int(git("rev-list", "--count", f"{found[1]}..{last}").stdout or 0)
+    changed = git("status", "--porcelain", "--", *subject).stdout != ""
+    last = "HEAD" if changed else git("log", "-1", "--format=%H", "--", *subject).stdout.strip()
+    count = int(git("rev-list", "--count", f"{found[1]}..{last}").stdout or 0) + changed
     if count > MOST:
         return (f"docs/{page}.md was made from commit {found[1]}, {count} commits before the last change of "
                 f"{', '.join(subject)}: make figures PAGES={page}")
