@@ -1,26 +1,23 @@
 """The paper's tables 1 to 6 with retex's figures, as Markdown: paper_tables.py DOCS HEAD >MD
 
-Measures nothing: the figures are those of overhead.csv, paper-sizes.csv and post.csv in DOCS. The paper's are those of
-its supplement.
+Measures nothing: the figures are those of overhead.csv, paper-sizes.csv and post.csv in DOCS.
 """
 import csv
 import re
 import sys
 
-# Overhead of table 1, 2 and 3, in percent: initial and second render of Rousselle and others, and the paper's method.
-OVERHEAD = {"Floor": (3.00, 30.97, 14.07), "Wall": (3.46, 28.16, 11.46), "Floor+Wall": (4.39, 30.96, 21.16)}
+import paper as published
+
 RENDERS = (("first render of Rousselle and others, biased", "initial-biased", 0), ("the same, unbiased", "initial-unbiased", None),
            ("their second render, biased", "again-biased", 1), ("the same, unbiased", "again-unbiased", None),
            ("the paper's method: layout `paper`", "paper", 2), ("layout `footprints`", "footprints", None))
-# Megabytes of table 4 (one object) and 5 (two).
-SIZES = (("Rousselle and others, biased", "control-biased", 47.55, 46.3),
-         ("Rousselle and others, unbiased", "control-unbiased", 97.5, 94.6),
-         ("the paper's AOVs, EXR, `float16`", "strict-half", 66.2, 116), ("the same, UV and spread as `float`", "strict", None, None),
-         ("`float16`, radiance as JPEG (here of quality 90)", "jpeg-90", 23.59, 52.6),
-         ("set of layout `footprints`, denoised", "denoised", None, None), ("its pack", "denoised-pack", None, None))
+# Of tables 4 and 5: ours, and what it is in the paper.
+SIZES = (("Rousselle and others, biased", "control-biased", "control-biased"),
+         ("Rousselle and others, unbiased", "control-unbiased", "control-unbiased"),
+         ("the paper's AOVs, EXR, `float16`", "strict-half", "aovs"), ("the same, UV and spread as `float`", "strict", None),
+         ("`float16`, radiance as JPEG (here of quality 90)", "jpeg-90", "jpeg"),
+         ("set of layout `footprints`, denoised", "denoised", None), ("its pack", "denoised-pack", None))
 PIXELS = 1920 * 1080
-# Seconds of table 6.
-TIMES = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096x3840": 10.88}
 
 
 def read(docs, name):
@@ -52,7 +49,7 @@ the noise of the measurement; the brackets have the least and the most of the tu
 """)
     of = {(r["targets"], r["row"]): r for r in rows if r["part"] == "time" and r["scene"] == "living-room"}
     lines = []
-    for number, (edit, paper) in enumerate(OVERHEAD.items(), 1):
+    for number, (edit, paper) in enumerate(published.OVERHEAD.items(), 1):
         for k, (label, row, column) in enumerate(RENDERS):
             found = of.get((edit, row))
             if not found:
@@ -82,9 +79,9 @@ not store.
 """)
     of = {(r["targets"], r["what"]): int(r["bytes"]) for r in rows if r["scene"] == "living-room"}
     lines = []
-    for label, what, *paper in SIZES:
+    for label, what, known_as in SIZES:
         line = [label]
-        for known, targets in zip(paper, ("Floor", "Floor Wall")):
+        for known, targets in zip(published.MEGABYTES.get(known_as, (None, None)), ("Floor", "Floor Wall")):
             found = of.get((targets, what), of.get(("none", what)))
             ours = found * scale / 1e6 if found else None
             line += [f"{known:g} MB" if known else "", f"{ours:.0f} MB" if ours else "", factor(ours, known) if ours else ""]
@@ -110,7 +107,7 @@ From the file of the set to the written JPEG, seconds of wall time, the living r
     table(["size", "paper", "retex, from EXR", "factor", "retex, from a pack", "factor"],
           [[size, f"{known:g} s", *(cell for what in ("set-jpg", "pack-jpg") for cell in
                                     (f"{of[size, what]:.2f} s", factor(of[size, what], known)))]
-           for size, known in TIMES.items() if (size, "set-jpg") in of])
+           for size, known in published.SECONDS.items() if (size, "set-jpg") in of])
     print("""
 What differs: the sets of layout `footprints` hold more images and denoising data than the paper's; the machine is another.""")
 

@@ -4,8 +4,12 @@ Prints what measure.py wrote as Markdown, and writes the figures as CSV.
 """
 import csv
 import json
+import os
 import sys
 from statistics import mean, median
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import paper as published
 
 ROWS = {
     "plain": "plain picture",
@@ -19,8 +23,6 @@ ROWS = {
     "again-unbiased": "Rousselle, unbiased: re-render",
     "again": "plain re-render",
 }
-# Overheads in percent of tables 1 to 3: Living Room, 128 samples.
-PAPER = {"floor": (14.07, 3.00, 30.97), "wall": (11.46, 3.46, 28.16), "floor and wall": (21.16, 4.39, 30.96)}
 SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
 
 INTRODUCTION = """# What a set costs
@@ -104,8 +106,9 @@ def paper():
     print("\n## The paper's figures\n\nThe Living Room of the paper, 128 samples per pixel, averages of five runs, "
           "relative to its plain path tracer:\n\n"
           "| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
-    for edit, figures in PAPER.items():
-        print(f"| {edit} | " + " | ".join(f"{f:.2f} %" for f in figures) + " |")
+    for edit, (first, again, its_set) in published.OVERHEAD.items():
+        name = edit.lower().replace("+", " and ")
+        print(f"| {name} | {its_set:.2f} % | {first:.2f} % | {again:.2f} % |")
 
 
 def memory(found, size):

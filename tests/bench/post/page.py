@@ -4,15 +4,16 @@ Prints what run.sh measured as Markdown, and writes the figures as CSV.
 """
 import csv
 import json
+import os
 import sys
 from statistics import median
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import paper as published
 from stored import USES
 
-PAPER_SECONDS = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096x3840": 10.88}
-# Megabytes of tables 4 and 5: one object, two objects.
-PAPER_SIZES = {"exr-rendered": (66.2, 116), "pack": (23.59, 52.6), "control-biased": (47.55, 46.3),
-               "control-unbiased": (97.5, 94.6)}
+# What files are in the paper.
+PUBLISHED_AS = {"exr-rendered": "aovs", "pack": "jpeg", "control-biased": "control-biased", "control-unbiased": "control-unbiased"}
 # Megabytes, of one target and of two, and shares of the EXR set.
 MOST_MEGABYTES = {"pack": (10, 16), "pack-rendered": (23.6, 52.6)}
 MOST_OF_EXR = {"lossless": 0.6, "lossless-rendered": 0.6}
@@ -177,11 +178,11 @@ def goals(cases):
         return figure
     every = [c for c in cases.values() if c.about["layout"] == "footprints"] or list(cases.values())
     large, small = ([c for c in every if c.about["size"] == size] for size in (LARGE, SMALL))
-    tenth = PAPER_SECONDS[LARGE] / 10
+    tenth = published.SECONDS[LARGE] / 10
     print("\n## Goals\n\nThe worst case of all scenes and edits, in the default layout if it was measured.\n\n"
           "| goal | worst | met |\n|---|---|---|")
     for row in ("pack-jpg", "pack-exr"):
-        worst(f"{ROWS[row]}, {LARGE}: at most a tenth of the paper's {PAPER_SECONDS[LARGE]} s", tenth, "s", wall(row),
+        worst(f"{ROWS[row]}, {LARGE}: at most a tenth of the paper's {published.SECONDS[LARGE]} s", tenth, "s", wall(row),
               large)
     for row in ("pack-jpg", "pack-exr"):
         worst(f"{ROWS[row]}, {SMALL}: at most 0.3 s", 0.3, "s", wall(row), small)
@@ -235,7 +236,7 @@ def against_paper(cases):
           "|---|---|---|---|---|---|---|---|---|---|---|---|")
     for c in cases.values():
         about = c.about
-        paper = PAPER_SECONDS.get(about["size"])
+        paper = published.SECONDS.get(about["size"])
         walls = [c.walls(row) for row in ("pack-jpg", "pack-exr")]
         faster = [times(paper / median(w)) if paper and w else "" for w in walls]
         sizes = [f"{int(about[name]) / 1e6:.1f}" for name in ("set_bytes", "pack_bytes")]
@@ -282,7 +283,7 @@ def sizes(stored, size, spp, control_spp):
         for what, name in STORED.items():
             if what not in files:
                 continue
-            paper = PAPER_SIZES.get(what)
+            paper = published.MEGABYTES.get(PUBLISHED_AS.get(what))
             parts = [f"{files[what]['uses'][use] / 1e6:.2f}" if files[what]["uses"] else "" for use in USES]
             share = of_exr(files, what)
             print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"
