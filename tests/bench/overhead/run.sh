@@ -9,7 +9,8 @@
 # which tells how well that goes.
 #
 # As it stands it takes about three hours a scene on two cores. BENCH_ROUNDS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE,
-# BENCH_SCENES='living-room artist' and BENCH_ROWS (some of the rows below, without `plain') choose less.
+# BENCH_SCENES='living-room artist' and BENCH_ROWS (some of the rows below, without `plain`) choose less;
+# BENCH_ARTIST_ROWS does for the artist's room alone.
 set -eu
 export LC_ALL=C
 . tests/figures/head.sh
@@ -73,15 +74,17 @@ measure() { # PART SCENE ROUND SIZE SPP 'ROW...' TARGET...
 
 rows="plain ${BENCH_ROWS:-footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased
     again-unbiased again} plain"
+artist_rows=$rows
+[ -z "${BENCH_ARTIST_ROWS:-}" ] || artist_rows="plain $BENCH_ARTIST_ROWS plain"
 for scene in $scenes; do
     if [ ! -e "$(file "$scene")" ]; then
         echo "bench-overhead: no $(file "$scene"): $scene is left out" >&2
         continue
     fi
-    other=Wall
-    [ "$scene" != artist ] || other=Painting
+    other=Wall rows_here=$rows
+    [ "$scene" != artist ] || other=Painting rows_here=$artist_rows
     for control in biased unbiased; do
-        case $rows in
+        case $rows_here in
         *again-$control*) retex-render -q --plain --control-data $control --size "$size" --spp "$spp" \
             -o "$work/initial-$control.exr" "$(file "$scene")" ;;
         esac
@@ -89,7 +92,7 @@ for scene in $scenes; do
     for round in $(seq "$rounds"); do
         for targets in Floor $other "Floor $other"; do
             # shellcheck disable=SC2086
-            measure time "$scene" "$round" "$size" "$spp" "$rows" $targets
+            measure time "$scene" "$round" "$size" "$spp" "$rows_here" $targets
         done
     done
 done
