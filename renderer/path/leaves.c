@@ -29,7 +29,8 @@ static int is_opaque(const Leaf *leaf)
     return leaf->color.filter + leaf->color.transmit <= 0;
 }
 
-int leaf_passes(const Leaf *leaf)
+/* 1: light may pass it by itself. */
+static int leaf_passes(const Leaf *leaf)
 {
     return !leaf->is_layer && (!is_opaque(leaf) || finish_transmits(leaf->texture->finish));
 }

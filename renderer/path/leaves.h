@@ -55,8 +55,6 @@ float leaves_share(const Leaves *leaves, int k);
 const Leaf *leaves_choose(const Leaves *leaves, double u, float *weight);
 /* The same of the leaves that may let light pass, or NULL: the other ones count, but send nothing on. */
 const Leaf *leaves_choose_passing(const Leaves *leaves, double u, float *weight);
-/* 1: light may pass it by itself. */
-int leaf_passes(const Leaf *leaf);
 /* The surface with the leaf as its only texture. */
 Surface leaf_surface(const Surface *surface, const Texture *texture, int target);
 

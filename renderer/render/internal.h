@@ -80,9 +80,7 @@ int render_is_wanted(const Render *render, int band);
 /* Trace all, and count; started: by the clock. Fails where the render is stopped and tiles are missing. */
 int render_paths(Render *render, RenderStats *stats, double started, RetexError *err);
 void render_sample(Render *render, int x, int y, int sample); /* a single path, for --trace-pixel */
-/* The camera rays of these samples of a pixel of the whole picture. */
-void render_camera_rays(const Render *render, int x, int y, int first, int count, Ray *rays);
-/* What they meet, each in turn. */
+/* What the camera rays of these samples of a pixel of the whole picture meet, each in turn. */
 typedef void RenderHitVisitor(void *context, const Ray *ray, const Hit *hit);
 void render_camera_hits(const Render *render, int x, int y, int count, RenderHitVisitor *visit, void *context);
 HalfSamples render_half_samples(const Render *render);        /* samples of each half */

@@ -10,8 +10,7 @@
 /* A level has at least this part of the picture. LEVELS_TRIED bounds the work where curved meshes have none. */
 enum { LEVEL_LEAST = 1000, LEVELS_TRIED = 1000 };
 
-const SelectorScope surface_scopes[SURFACE_SCOPES] = {SCOPE_MATERIAL, SCOPE_OBJECT, SCOPE_FLAT, SCOPE_LEVEL};
-enum { MATERIAL, OBJECT, FLAT, LEVEL }; /* in their order */
+enum { MATERIAL, OBJECT, FLAT, LEVEL }; /* planes, in their order */
 
 /* A face that is seen, of all copies. */
 typedef struct SeenFace {

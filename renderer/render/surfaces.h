@@ -17,11 +17,9 @@ typedef struct SeenSurface {
 typedef struct Surfaces {
     int count;
     SeenSurface *list;
-    uint16_t *planes; /* by scope, in the order of surface_scopes, and pixel: 1 + the index of what is taken, or 0 */
+    uint16_t *planes; /* of materials, objects, flat faces, levels, by pixel: 1 + the index of what is taken, or 0 */
     uint64_t charged;
 } Surfaces;
-
-extern const SelectorScope surface_scopes[SURFACE_SCOPES]; /* material, object, flat, level */
 
 /* What no view changes: it is found where it is first asked for, and kept for the next view. */
 typedef struct SceneSurfaces {

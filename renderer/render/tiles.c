@@ -102,7 +102,8 @@ static int tile_samples(const Render *r, int thread, int x0, int y0, int across,
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
-void render_camera_rays(const Render *r, int x, int y, int first, int count, Ray *rays)
+/* The camera rays of these samples of a pixel of the whole picture. */
+static void camera_rays(const Render *r, int x, int y, int first, int count, Ray *rays)
 {
     const PixelStart start = start_pixel(r, r->params.seed, x, y);
     Sampler unused;
@@ -119,7 +120,7 @@ void render_camera_hits(const Render *r, int x, int y, int count, RenderHitVisit
         kinds[i] = RAY_CAMERA;
     for (int s = 0, n; s < count; s += n) {
         n = count - s < ACCEL_PACKET ? count - s : ACCEL_PACKET;
-        render_camera_rays(r, x, y, s, n, rays);
+        camera_rays(r, x, y, s, n, rays);
         accel_intersect_packet(r->accel, rays, kinds, n, 1, hits);
         for (int i = 0; i < n; i++)
             visit(context, &rays[i], &hits[i]);
@@ -132,7 +133,7 @@ static void end_guides(const Render *r, int thread, PixelGuides *guides, int spp
     Ray rays[ACCEL_PACKET];
     for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
         count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
-        render_camera_rays(r, r->x0 + x, r->y0 + y, s, count, rays);
+        camera_rays(r, r->x0 + x, r->y0 + y, s, count, rays);
         denoise_guides_trace(guides, rays, count);
     }
     denoise_guides_pixel_end(guides, r->pixels[thread], x, y);

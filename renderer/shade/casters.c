@@ -26,7 +26,8 @@ static int texture_casts(const Primitive *p, const Texture *texture)
     return 0;
 }
 
-int primitive_casts_caustics(const Primitive *p, const Instance *instance)
+/* Whether it is one of its own accord, as CASTERS_OF_EMITTERS. instance: whose texture it may have, or NULL. */
+static int casts_by_itself(const Primitive *p, const Instance *instance)
 {
     const FaceTextures *textures = p->shape.textures;
     if (texture_casts(p, instance && p->inherits ? instance->texture : p->texture))
@@ -43,7 +44,7 @@ static int is_caster(const Primitive *p, const Instance *instance, CasterKind ki
 {
     if (p->caustics && kind != CASTERS_OF_EMITTERS)
         return 1;
-    return kind != CASTERS_OF_SOURCES && primitive_casts_caustics(p, instance);
+    return kind != CASTERS_OF_SOURCES && casts_by_itself(p, instance);
 }
 
 /* Of an operand of CSG, the bounds of what can be seen of it: a plane that cuts glass throws caustics too. */

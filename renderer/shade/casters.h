@@ -23,7 +23,5 @@ typedef int CasterVisitor(void *context, const Caster *caster);
 
 /* Visits all of them, primitives first. Returns what the last visit returned. */
 int casters_visit(const Scene *scene, CasterKind kind, CasterVisitor *visit, void *context);
-/* Whether it is one of its own accord, as CASTERS_OF_EMITTERS. instance: whose texture it may have, or NULL. */
-int primitive_casts_caustics(const Primitive *primitive, const Instance *instance);
 
 #endif

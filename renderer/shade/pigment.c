@@ -24,13 +24,16 @@ static PatternPoint warped(const Pattern *pattern, const PatternPoint *at)
     return (PatternPoint){pattern_warp(pattern, at->p), at->normal, at->view};
 }
 
+/* The colour at a point of pattern space, in the scene's working space. */
+static Rgbft in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
+
 /* An entry's colour at a point of the pattern space of the map's pigment. */
 static Rgbft entry_color(const ColorMapEntry *entry, const PatternPoint *at, Vec2 uv)
 {
     if (!entry->pigment)
         return entry->color;
     const PatternPoint point = inside(entry->pigment, at, uv);
-    return pigment_in_working_space(entry->pigment, &point, uv);
+    return in_working_space(entry->pigment, &point, uv);
 }
 
 static Rgbft map_color(const ColorMap *map, double value, const PatternPoint *at, Vec2 uv)
@@ -83,7 +86,7 @@ static Rgbft image_color(const Pigment *pigment, Vec3 p)
     return image_lookup(pigment, warped_image_uv(pigment, p));
 }
 
-Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
+static Rgbft in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
 {
     PatternPoint point;
 
@@ -107,7 +110,7 @@ Rgbft pigment_as_written(const Pigment *pigment, const PatternPoint *at)
     const Vec2 uv = {at->p.x, at->p.y};
     const PatternPoint point = inside(pigment, at, uv);
 
-    return pigment_in_working_space(pigment, &point, uv);
+    return in_working_space(pigment, &point, uv);
 }
 
 Rgbft pigment_pattern(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
@@ -116,7 +119,7 @@ Rgbft pigment_pattern(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
         return pigment->color;
     if (pigment->kind == PIGMENT_IMAGE)
         return image_color(pigment, at->p);
-    return working_decode_pigment(pigment->space, pigment_in_working_space(pigment, at, uv));
+    return working_decode_pigment(pigment->space, in_working_space(pigment, at, uv));
 }
 
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)

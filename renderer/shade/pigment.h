@@ -13,9 +13,7 @@ Rgbft pigment_eval_on(const Pigment *map, const Surface *surface);
 Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* The same as numbers of the scene's working space; a plain colour as it is kept in the pigment. */
 Rgbft pigment_as_written(const Pigment *pigment, const PatternPoint *at);
-/* The colour at a point of pattern space, in the scene's working space. */
-Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
-/* The same point in pattern space. */
+/* A world point in pattern space. */
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The colour of an image's pigment at a point of pattern space, and target_uv's UV there. */
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *target);

@@ -2,7 +2,7 @@
 # Rules that a script can check: make lint.
 #   - includes between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, of files, nor of units; their size
-#   - symbols of libretex begin with retex_; its README names all files
+#   - symbols of libretex begin with retex_; its README names all files; what no other file uses is static
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
 #   - each public header compiles alone, as C11 and as C++17; its calls fail in the same way
@@ -49,13 +49,16 @@ for file in renderer/*/*.[ch] renderer/*/*/*.[ch]; do
     ! grep -qE '#include *"common/cli\.h"' "$file" || complain "$file: only mains may include cli.h"
 done
 
-# FILE NEEDED SYMBOL for each symbol that a file's object takes from another's, where there are objects; without suffix
-needs() { # directory
-    objects=${BUILD:-build}/obj/$1
-    [ ! -d "$objects" ] || find "$objects" -name '*.o' | while read -r object; do
+# The objects that the sources of a directory became, where they were built.
+objects() { # directory, ending of the sources
+    find "${BUILD:-build}/obj/$1" -name '*.o' 2>/dev/null | while read -r object; do
         source=${object#"${BUILD:-build}/obj/"}
-        [ ! -e "${source%.o}.c" ] || nm -A "$object"
-    done | awk -v prefix="$objects/" '
+        [ ! -e "${source%.o}.$2" ] || echo "$object"
+    done
+}
+# FILE NEEDED SYMBOL for each symbol that a file's object takes from another's, without suffix
+needs() { # directory
+    objects "$1" c | xargs -r nm -A | awk -v prefix="${BUILD:-build}/obj/$1/" '
         { file = substr($1, length(prefix) + 1); sub(/\.o:.*/, "", file) }
         $(NF - 1) ~ /^[TDBRV]$/ { of[$NF] = file }
         $(NF - 1) == "U" { from[++n] = file; symbol[n] = $NF }
@@ -145,11 +148,25 @@ one_definition tools/libretex/include/retex/host/cpu.h '__attribute__ *\(\(targe
 one_definition tools/libretex/include/retex/host/aov.h '"irradiance"|"roughness, |, roughness"' 'the list of AOVs'
 one_definition tools/libretex/include/retex/host/denoise_data.h '"guide_|"noise_("|%|indep|beauty)' 'names of what denoising reads'
 
+# What no other file uses is static, but for what is public and what tests call.
+alone=$(for folder in tools renderer oiio_plugins; do
+    objects "$folder" c | xargs -r nm -A -g
+    objects "$folder" cpp | xargs -r nm -A -u
+done | awk -v prefix="${BUILD:-build}/obj/" '
+    $(NF - 1) ~ /^[TDBR]$/ { sub(/\.o:.*/, "", $1); of[$NF] = substr($1, length(prefix) + 1) }
+    $(NF - 1) == "U" { used[$NF] }
+    END { for (symbol in of) if (!(symbol in used) && symbol != "main") print symbol, of[symbol] }' | sort)
+words=$(echo "$alone" | cut -d ' ' -f 1)
+[ -z "$words" ] || words=$(git grep -ohwFe "$words" -- tests/unit tests/lib tests/fuzz tests/bench tests/faults \
+    tools/libretex/include | sort -u)
+found=$(echo "$alone" | awk -v known="$words" 'BEGIN { n = split(known, list, "\n"); for (i = 1; i <= n; i++) is[list[i]] }
+    NF && !($1 in is) { print $2 ".c: " $1 }')
+[ -z "$found" ] || complain "used by no other file nor test, and not static:
+$found"
+
 # Symbols of the library that others can see begin with retex_.
-unprefixed=$(find "${BUILD:-build}/obj/tools/libretex" -name '*.o' 2>/dev/null | while read -r object; do
-    source=${object#"${BUILD:-build}/obj/"}
-    [ ! -e "${source%.o}.c" ] || nm -A -g --defined-only "$object"
-done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
+unprefixed=$(objects tools/libretex c | xargs -r nm -A -g --defined-only |
+    awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
 [ -z "$unprefixed" ] || complain "symbols of libretex without retex_:
 $unprefixed"
 

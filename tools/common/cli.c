@@ -321,7 +321,8 @@ void cli_limit(Cli *cli, const CliOption *option)
         cli_die(cli, "--%s", err.message);
 }
 
-uint64_t cli_size(const Cli *cli, const CliOption *option)
+/* A SIZE, in bytes. */
+static uint64_t take_size(const Cli *cli, const CliOption *option)
 {
     uint64_t bytes;
     if (retex_size_parse(cli->value, &bytes, NULL))
@@ -357,7 +358,7 @@ int cli_take(Cli *cli, const CliOption *option, void *job)
     else if (into->type == CLI_DOUBLE)
         *(double *)member = cli_number(cli, option, into->low, into->high);
     else
-        *(uint64_t *)member = cli_size(cli, option);
+        *(uint64_t *)member = take_size(cli, option);
     return 1;
 }
 

@@ -187,8 +187,6 @@ int cli_ends_with(const char *path, const char *ending);
 /* Bytes of a file on disk, or 0 if unknown. */
 double cli_file_size(const char *path);
 
-/* The option's value, a SIZE, in bytes. */
-uint64_t cli_size(const Cli *cli, const CliOption *option);
 /* --memory, in bytes, of tools that can process a set by rows: the part of --max-memory that a set kept in memory may
  * take. */
 #define CLI_MEMORY_DEFAULT ((uint64_t)2048 << 20)

@@ -31,7 +31,8 @@ static void add_combinations(Plan *plan, int ntargets, int from, int hits, unsig
     }
 }
 
-int plan_hits(const PlanCoefficient *c)
+/* Further hits that a coefficient stands for. */
+static int further_hits(const PlanCoefficient *c)
 {
     int sum = c->mixed;
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
@@ -51,7 +52,7 @@ static void complete(Plan *plan, int ntargets, int first_mixed)
             more[t]++;
             int next = c->mixed ? -1 : find(plan, more);
             for (int m = first_mixed; next < 0 && m < plan->count; m++)
-                if (plan->coefficients[m].mixed == plan_hits(c) + 1)
+                if (plan->coefficients[m].mixed == further_hits(c) + 1)
                     next = m;
             c->next[t] = (signed char)next;
         }

@@ -24,9 +24,6 @@ typedef struct Plan {
     PlanCoefficient coefficients[PLAN_COEFFICIENTS_MAX];
 } Plan;
 
-/* Further hits that a coefficient stands for. */
-int plan_hits(const PlanCoefficient *coefficient);
-
 /* dep_Floor_sharp_a2b1: light of sharp clusters, then two hits of the first target and one of the second;
  * dep_Floor_sharp_m5: then five of any. word: what it begins with, as dep_Floor; kind: 0 sharp, 1 broad. */
 void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *word, int kind, int coefficient);

@@ -188,7 +188,7 @@ static double call_select(const double *args, int count)
     return args[0] < 0 ? args[1] : args[0] == 0 || count == 3 ? args[2] : args[3];
 }
 
-double builtin_float(Sdl *sdl, int id, const double *args, int count)
+static double builtin_float(Sdl *sdl, int id /* FunctionOp */, const double *args, int count)
 {
     const FunctionOp op = (FunctionOp)id;
     if ((op == FUNCTION_LN || op == FUNCTION_LOG) && args[0] <= 0)

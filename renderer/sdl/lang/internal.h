@@ -232,7 +232,6 @@ struct Sdl {
 /* The bytes, used so many of them, or a copy of them where there is place for all that are wanted. */
 char *sdl_reserve(Sdl *sdl, char *bytes, size_t used, size_t wanted, size_t *capacity);
 _Noreturn void sdl_fail_memory(Sdl *sdl); /* error: the scene's memory limit is reached */
-void sdl_message(Sdl *sdl, int level, const char *text);
 void sdl_debug_text(Sdl *sdl, const char *text);
 
 /* words.c */
@@ -331,7 +330,6 @@ struct Builtin {
 extern const Builtin builtins[];
 int builtin_count(void);
 Num builtin_constant(Sdl *sdl, int id);
-double builtin_float(Sdl *sdl, int id /* FunctionOp */, const double *args, int count);
 Num builtin_number(Sdl *sdl, const Builtin *builtin); /* parses what follows the name */
 /* function_string.c */
 const char *builtin_string(Sdl *sdl, const Builtin *builtin);

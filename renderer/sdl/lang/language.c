@@ -156,7 +156,7 @@ void sdl_expected(Sdl *sdl, const char *what)
 /* Limit of the messages' bytes for an untrusted scene. A loop of #warning would otherwise fill the caller's log. */
 enum { SAFE_MESSAGES = 64 << 10 };
 
-void sdl_message(Sdl *sdl, int level, const char *text)
+static void send_message(Sdl *sdl, int level, const char *text)
 {
     if (!sdl->options.message || sdl->said > SAFE_MESSAGES)
         return;
@@ -169,7 +169,7 @@ void sdl_message(Sdl *sdl, int level, const char *text)
 static void flush_debug(Sdl *sdl)
 {
     if (sdl->npending)
-        sdl_message(sdl, 0, sdl->pending);
+        send_message(sdl, 0, sdl->pending);
     sdl->npending = 0;
 }
 
@@ -180,7 +180,7 @@ void sdl_debug_text(Sdl *sdl, const char *text)
         sdl->pending = sdl_reserve(sdl, sdl->pending, sdl->npending, sdl->npending + 2, &sdl->pending_capacity);
         sdl->pending[sdl->npending] = 0;
         if (*text == '\n') {
-            sdl_message(sdl, 0, sdl->pending);
+            send_message(sdl, 0, sdl->pending);
             sdl->npending = 0;
         } else
             sdl->pending[sdl->npending++] = *text;
@@ -194,7 +194,7 @@ static void warn(Sdl *sdl, const char *file, int line, const char *fmt, va_list 
     vsnprintf(text, sizeof text, fmt, args);
     snprintf(message, sizeof message, "%s:%d: warning: %s", file, line, text);
     flush_debug(sdl);
-    sdl_message(sdl, 1, message);
+    send_message(sdl, 1, message);
 }
 
 void sdl_warn(Sdl *sdl, const char *fmt, ...)

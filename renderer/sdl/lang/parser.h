@@ -105,8 +105,7 @@ int sdl_accept_written(Sdl *sdl, const char *word);
 /* Expressions. As in POV-Ray, a float fills all components of a vector, and a short vector is padded with zeros. A
  * vector with too many components is an error. */
 double sdl_float(Sdl *sdl);
-int sdl_bool(Sdl *sdl);                       /* a float, or on/off/yes/no/true/false */
-int sdl_optional_bool(Sdl *sdl, int missing); /* a switch whose value is optional; missing: its default */
+int sdl_optional_bool(Sdl *sdl, int missing); /* a float, or on/off/yes/no/true/false; missing: where there is none */
 Vec3 sdl_vector(Sdl *sdl);
 Vec2 sdl_vector2(Sdl *sdl);
 Rgbft sdl_color(Sdl *sdl); /* `color rgb <…>`, names, arithmetic on colours; a float fills all five components */

@@ -228,7 +228,7 @@ static int accept_surface(Sdl *sdl, Object *object)
     return 1;
 }
 
-int accept_object_modifier(Sdl *sdl, Object *object)
+static int accept_object_modifier(Sdl *sdl, Object *object)
 {
     Transform by;
     if (accept_transform(sdl, &by)) {

@@ -84,7 +84,6 @@ const PlaceList *places_join(Sdl *sdl, const PlaceList *within, const PlaceList 
 void object_report(Sdl *sdl, const Object *object); /* what of it is not supported */
 void object_count_child(Sdl *sdl, Object *object, const Object *child); /* counts; an error beyond all bounds */
 void object_move(Object *object, const Transform *by);
-int accept_object_modifier(Sdl *sdl, Object *object);
 void parse_object_modifiers(Sdl *sdl, Object *object); /* up to the closing brace */
 /* Nothing needs the object any more: it is placed, and has no name. */
 void object_done(Sdl *sdl, const Object *object);

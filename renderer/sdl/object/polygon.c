@@ -141,7 +141,7 @@ static void slab(Sdl *sdl, Triangles *out, const Edge *edges, int n, Crossing *c
 }
 
 /* starts[r]..starts[r + 1] are the points of ring r. The corners come three for a triangle, counter-clockwise. */
-int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners)
+static int triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners)
 {
     Triangles out = {0};
     if (nrings == 1 && is_convex(points, starts[1])) {
@@ -246,7 +246,7 @@ static void build(Sdl *sdl, Object *object, Vec3 *points, int n)
     }
     object->shape.ops = &shape_mesh;
     if (vec_length(normal) == 0 || nrings == 0 ||
-        polygon_triangulate(sdl, flat, starts, nrings, &corners, &ncorners) == 0) {
+        triangulate(sdl, flat, starts, nrings, &corners, &ncorners) == 0) {
         sdl_warn(sdl, "a polygon without area: it is left out");
         object->kind = OBJECT_EMPTY;
         return;

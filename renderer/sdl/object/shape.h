@@ -19,7 +19,6 @@ SHAPE_KEYWORDS(X)
 /* isosurface.c: also of other shapes that a function gives */
 int accept_container(Sdl *sdl, Container *container);
 double positive_or(Sdl *sdl, const char *what, double value, double instead); /* warns where it is not */
-int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
 
 /* font.c: a font's letters, in units of its size. Each file is read and each letter is made once. */
 typedef struct Font Font;

@@ -65,6 +65,8 @@ const ParsedSlopeMap *parse_slope_map(Sdl *sdl)
     return map;
 }
 
+static const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char end);
+
 const ParsedNormalMap *parse_normal_map(Sdl *sdl)
 {
     sdl_expect(sdl, "{");
@@ -234,7 +236,7 @@ static void normal_item(Sdl *sdl, Reader *r)
         sdl_expected(sdl, "a pattern, a modifier of patterns, a transform or the end of the normal");
 }
 
-const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char end)
+static const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char end)
 {
     const char closing[2] = {end, 0};
     ParsedNormal *normal = sdl_alloc(sdl, sizeof *normal);

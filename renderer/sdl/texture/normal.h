@@ -37,7 +37,6 @@ static inline const ParsedBumpMap *parsed_bump_map(const BumpMap *map)
 
 /* normal.c, bump_map.c */
 const ParsedNormal *parse_normal(Sdl *sdl, const ParsedNormal *from /* or NULL */); /* after `normal` */
-const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char end);
 const ParsedNormalMap *parse_normal_map(Sdl *sdl); /* after normal_map */
 const ParsedSlopeMap *parse_slope_map(Sdl *sdl);   /* after slope_map */
 /* NULL stays NULL. */

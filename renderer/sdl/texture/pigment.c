@@ -86,7 +86,7 @@ static Rgbft entries_mean(const ColorMap *map, int weighted)
     return sum;
 }
 
-Rgbft pigment_mean(const Pigment *pigment)
+static Rgbft pigment_mean(const Pigment *pigment)
 {
     switch (pigment->kind) {
     case PIGMENT_COLOR:

@@ -34,7 +34,6 @@ ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its b
 /* The same, of a texture without uv_mapping, which would change it: it may be another texture's too. */
 ParsedPigment *parse_shared_pigment(Sdl *sdl, const ParsedPigment *from);
 const Pigment *parse_uv_pigment(Sdl *sdl); /* of the block `retex` and the like: on the shape's UV, with its braces */
-Rgbft pigment_mean(const Pigment *pigment);
 /* A pattern of textures, up to the end: the pattern as a pigment without colours, and its textures in map. */
 ParsedPigment *parse_selector(Sdl *sdl, char end, struct ParsedTextureMap *map);
 ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */

@@ -31,12 +31,12 @@ static int check_exr(RetexInput **input, int nthreads, RetexError *err)
     return retex_set_check_exr(*input, nthreads, err);
 }
 
-const RetexSetFormat retex_set_format_pack = {retex_pack_probe, open_pack, check_pack};
+static const RetexSetFormat format_pack = {retex_pack_probe, open_pack, check_pack};
 const RetexSetFormat retex_set_format_exr = {NULL, retex_set_read_exr, check_exr};
 
 const RetexSetFormat *retex_set_format_of(const RetexInput *input)
 {
-    static const RetexSetFormat *const formats[] = {&retex_set_format_pack, &retex_set_format_exr};
+    static const RetexSetFormat *const formats[] = {&format_pack, &retex_set_format_exr};
     unsigned char begin[64];
     const int64_t got = retex_input_read(input, begin, sizeof begin, 0);
     int i = 0;

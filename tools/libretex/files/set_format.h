@@ -15,7 +15,7 @@ typedef struct RetexSetFormat {
     int (*check)(RetexInput **input, int nthreads, RetexError *err);
 } RetexSetFormat;
 
-extern const RetexSetFormat retex_set_format_pack, retex_set_format_exr;
+extern const RetexSetFormat retex_set_format_exr;
 
 /* By a file's first bytes. */
 const RetexSetFormat *retex_set_format_of(const RetexInput *input);

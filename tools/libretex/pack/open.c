@@ -16,7 +16,8 @@
 #include "set/manifest.h"
 #include "base/value_check.h"
 
-void retex_pack_close(RetexPack **result)
+/* NULL and pointers to NULL are fine. */
+static void close_pack(RetexPack **result)
 {
     RetexPack *pack = result ? *result : NULL;
     if (!pack)
@@ -209,7 +210,7 @@ int retex_pack_promise(RetexPackPromise *promise, const RetexSet *set, RetexErro
 static void source_close(RetexSetSource *source)
 {
     RetexPack *pack = (RetexPack *)(void *)source;
-    retex_pack_close(&pack);
+    close_pack(&pack);
 }
 
 static int reader_open(RetexSetSource *source, void **reader, RetexError *err)
@@ -261,7 +262,7 @@ int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err)
     }
     if (err)
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
-    retex_pack_close(&pack);
+    close_pack(&pack);
     retex_set_close(set);
     return code;
 }

@@ -12,7 +12,6 @@ typedef struct RetexPack RetexPack;
  * set from then on, and is NULL. */
 int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err);
 RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
-void retex_pack_close(RetexPack **pack);       /* NULL and pointers to NULL are fine */
 
 /* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);
