@@ -41,7 +41,7 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->uv.u = rho > 0 ? shape_turn(p.x, p.z) : 0;
     out->uv.v = 0.5 + atan2(p.y, rho) / PI;
     out->natural = out->uv;
-    out->has_uv = 1;
+    out->has_uv = !surface->primitive->shape.data; /* that of an ellipsoid by its equation has none in POV-Ray */
 }
 
 static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)

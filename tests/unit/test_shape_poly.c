@@ -121,7 +121,8 @@ static void quadrics_are_povray(void **unused)
     scene_close(&scene);
 }
 
-/* An ellipsoid is a sphere with bounds, with the equation of the quadric; turned inside out where that is positive. */
+/* An ellipsoid is a sphere with bounds, with the equation of the quadric; turned inside out where that is positive. Its
+ * UV of uv_mapping are the world's x and y, as POV-Ray has them of quadrics, and not a sphere's. */
 static void ellipsoids_have_bounds(void **unused)
 {
     const char *const texts[] = {V37 "quadric{<2, 3, 1>, <0.5, 0.4, 0.3>, <-1, 2, 0.5>, -4}",
@@ -139,6 +140,12 @@ static void ellipsoids_have_bounds(void **unused)
             assert_near(2 * q.x * q.x + 3 * q.y * q.y + q.z * q.z + 0.5 * q.x * q.y + 0.4 * q.x * q.z +
                             0.3 * q.y * q.z - q.x + 2 * q.y + 0.5 * q.z - 4,
                         0);
+            Surface surface = {0};
+            surface_from_point(&surface, p, 0, &(ShapePoint){.p = vec3(rho * cos(angle), rho * sin(angle), z)});
+            const SurfaceUv uv = surface_uv(&surface);
+            assert_near(uv.uv.u - q.x, 0);
+            assert_near(uv.uv.v - q.y, 0);
+            assert_near(uv.natural.v - (0.5 + asin(rho * sin(angle)) / PI), 0);
         }
         scene_close(&scene);
     }

@@ -85,8 +85,7 @@ static int try_ellipsoid(Object *object, Poly *poly, double sign)
     }
     if (!cholesky(a, lower) || !ellipsoid(object, lower, b, sign * *term(poly, 0, 0, 0)))
         return 0;
-    object->shape.ops = &shape_sphere;
-    object->shape.data = NULL;
+    object->shape.ops = &shape_sphere; /* its data stays the polynomial: so uv_mapping is that of one */
     return 1;
 }
 
