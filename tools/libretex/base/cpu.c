@@ -1,4 +1,6 @@
-/* See retex/host/cpu.h. */
+/* See retex/host/cpu.h and cpu.h. */
+#include "base/cpu.h"
+
 #include <retex/host/cpu.h>
 
 #include <stdatomic.h>
@@ -50,4 +52,12 @@ RetexCpuLevel retex_cpu_level(void)
         atomic_store_explicit(&known, level + 1, memory_order_relaxed);
     }
     return (RetexCpuLevel)level;
+}
+
+void retex_cpu_clear_upper_halves(void)
+{
+#if RETEX_CPU_X86
+    if (__builtin_cpu_supports("avx"))
+        __asm__ volatile("vzeroupper");
+#endif
 }
