@@ -36,20 +36,25 @@ typedef struct LampChoice {
     int nthreads;
     LampGain *gains;
     int count;
+    RetexImage all; /* the light of all lamps that gains of the kind `all_of` are a part of; empty: not made yet */
+    int all_of;
     RetexImage picture; /* by the lamp, with a value of 1 */
     float exposure;
     double whole; /* mean of the picture by all lamps, with the same textures */
 } LampChoice;
 
-/* The light of all lamps of which a gain is a part. */
-static int make_whole(RetexImage *image, const LampChoice *work, const LampGain *gain, RetexError *err)
+/* Gains of one kind follow each other. */
+static int make_all(LampChoice *work, int kind, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
     const RetexSet *set = light->set;
-    if (gain->kind < 0)
-        return retex_image_copy(image, &set->parts[set->terms[retex_compact_light_without_hits(set)].radiance].image,
-                                err);
-    return retex_compact_sum_light(image, light, &light->kinds[gain->kind], light->all, work->nthreads, err);
+    if (work->all.pixels && work->all_of == kind)
+        return RETEX_OK;
+    retex_image_free(&work->all);
+    work->all_of = kind;
+    return kind < 0 ? retex_image_copy(
+                          &work->all, &set->parts[set->terms[retex_compact_light_without_hits(set)].radiance].image, err)
+                    : retex_compact_sum_light(&work->all, light, &light->kinds[kind], light->all, work->nthreads, err);
 }
 
 static float encoded(float x)
@@ -60,7 +65,7 @@ static float encoded(float x)
 typedef struct ErrorWork {
     const LampChoice *choice;
     const LampGain *gain;
-    const RetexImage *whole, *coarse; /* all light, and the gain */
+    const RetexImage *coarse; /* the gain */
     int scale;
     double *rows;
 } ErrorWork;
@@ -69,7 +74,7 @@ static void error_row(void *context, int y, int thread)
 {
     const ErrorWork *work = context;
     const LampChoice *choice = work->choice;
-    const RetexImage *all = work->whole;
+    const RetexImage *all = &choice->all;
     const int margin = retex_compact_margin(choice->reference);
     const float albedo = work->gain->albedo, exposure = choice->exposure;
     float *row = malloc(sizeof *row * 3 * (size_t)all->width);
@@ -91,18 +96,18 @@ static void error_row(void *context, int y, int thread)
     free(row);
 }
 
-static int measure_step(LampChoice *choice, LampGain *gain, int step, const RetexImage *whole, double *rows,
-                        RetexError *err)
+static int measure_step(LampChoice *choice, LampGain *gain, int step, double *rows, RetexError *err)
 {
     RetexImage coarse = {0};
-    ErrorWork work = {choice, gain, whole, &coarse, 1 << step, rows};
-    const int columns = whole->width - 2 * retex_compact_margin(choice->reference);
+    ErrorWork work = {choice, gain, &coarse, 1 << step, rows};
+    const RetexImage *all = &choice->all;
+    const int columns = all->width - 2 * retex_compact_margin(choice->reference);
     double weights = 0;
-    int code = retex_compact_share(&coarse, &gain->light, whole, 1 << step, choice->nthreads, err);
+    int code = retex_compact_share(&coarse, &gain->light, all, 1 << step, choice->nthreads, err);
     if (!code)
-        retex_parallel(choice->nthreads, whole->height, error_row, &work);
+        retex_parallel(choice->nthreads, all->height, error_row, &work);
     gain->squares[step] = 0;
-    for (int y = 0; y < whole->height && !code; y++) {
+    for (int y = 0; y < all->height && !code; y++) {
         gain->squares[step] += retex_compact_row_weight(choice->reference, y) * rows[y];
         weights += retex_compact_row_weight(choice->reference, y);
     }
@@ -114,17 +119,15 @@ static int measure_step(LampChoice *choice, LampGain *gain, int step, const Rete
 /* Errors by step, without noise that averaging removes. */
 static int measure_gain(LampChoice *choice, LampGain *gain, RetexError *err)
 {
-    RetexImage whole = {0};
     double *rows = malloc(sizeof *rows * (size_t)choice->picture.height);
-    int code = rows ? make_whole(&whole, choice, gain, err) : retex_fail(err, RETEX_ENOMEM, "no memory for lamps");
+    int code = rows ? make_all(choice, gain->kind, err) : retex_fail(err, RETEX_ENOMEM, "no memory for lamps");
     for (int step = 1; step < STEPS && !code; step++)
-        code = measure_step(choice, gain, step, &whole, rows, err);
+        code = measure_step(choice, gain, step, rows, err);
     const double noise = (2 * gain->squares[1] - gain->squares[2]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
     gain->noise = choice->light->noise * fmax(noise, 0);
     for (int step = 1; step < STEPS; step++)
         gain->squares[step] =
             fmax(gain->squares[step] - NOISE_IGNORED * gain->noise * (1 - 1.0 / (1 << (2 * step))), 0);
-    retex_image_free(&whole);
     free(rows);
     return code;
 }
@@ -285,6 +288,7 @@ int retex_compact_lamps_choose(RetexCompactScales *scales, const RetexCompactRef
     for (int i = 0; i < light->set->nparameters && !code; i++)
         if (light->set->parameters[i].kind == RETEX_PARAMETER_COLOR)
             code = choose_of_lamp(&work, i, bound, err);
+    retex_image_free(&work.all);
     free(work.gains);
     return code;
 }
