@@ -52,9 +52,10 @@ static int make_all(LampChoice *work, int kind, RetexError *err)
         return RETEX_OK;
     retex_image_free(&work->all);
     work->all_of = kind;
-    return kind < 0 ? retex_image_copy(
-                          &work->all, &set->parts[set->terms[retex_compact_light_without_hits(set)].radiance].image, err)
-                    : retex_compact_sum_light(&work->all, light, &light->kinds[kind], light->all, work->nthreads, err);
+    if (kind >= 0)
+        return retex_compact_sum_light(&work->all, light, &light->kinds[kind], light->all, work->nthreads, err);
+    const int without = set->terms[retex_compact_light_without_hits(set)].radiance;
+    return retex_image_copy(&work->all, &set->parts[without].image, err);
 }
 
 static float encoded(float x)
