@@ -417,14 +417,9 @@ Vec2 sdl_vector2(Sdl *sdl)
     return (Vec2){num.n[0], num.n[1]};
 }
 
-static int read_bool(Sdl *sdl)
-{
-    return sdl_float(sdl) != 0;
-}
-
 int sdl_optional_bool(Sdl *sdl, int missing)
 {
-    return expression_is_number_start(sdl) ? read_bool(sdl) : missing;
+    return expression_is_number_start(sdl) ? sdl_float(sdl) != 0 : missing;
 }
 
 static const Builtin *builtin_next(Sdl *sdl)

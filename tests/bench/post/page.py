@@ -12,8 +12,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import paper as published
 from stored import USES
 
-# What files are in the paper.
-PUBLISHED_AS = {"exr-rendered": "aovs", "pack": "jpeg", "control-biased": "control-biased", "control-unbiased": "control-unbiased"}
+# What files are in the paper, where they have another name there.
+PUBLISHED_AS = {"exr-rendered": "aovs", "pack": "jpeg"}
 # Megabytes, of one target and of two, and shares of the EXR set.
 MOST_MEGABYTES = {"pack": (10, 16), "pack-rendered": (23.6, 52.6)}
 MOST_OF_EXR = {"lossless": 0.6, "lossless-rendered": 0.6}
@@ -283,7 +283,7 @@ def sizes(stored, size, spp, control_spp):
         for what, name in STORED.items():
             if what not in files:
                 continue
-            paper = published.MEGABYTES.get(PUBLISHED_AS.get(what))
+            paper = published.MEGABYTES.get(PUBLISHED_AS.get(what, what))
             parts = [f"{files[what]['uses'][use] / 1e6:.2f}" if files[what]["uses"] else "" for use in USES]
             share = of_exr(files, what)
             print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"

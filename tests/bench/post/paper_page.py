@@ -21,8 +21,8 @@ STORED = {
     "denoised": "set, denoised",
     "denoised-pack": "its pack",
 }
-# What they are in the paper.
-PUBLISHED_AS = {"strict-half": "aovs", "jpeg": "jpeg", "control-biased": "control-biased", "control-unbiased": "control-unbiased"}
+# What they are in the paper, where they have another name there.
+PUBLISHED_AS = {"strict-half": "aovs"}
 
 INTRODUCTION = """# Sizes in the paper's form and in ours
 
@@ -67,7 +67,7 @@ def main(records, table, head, size, spp):
     for r in found:
         kind, _, quality = r["what"].partition("-") if r["what"].startswith("jpeg") else (r["what"], "", "")
         count = len(r["targets"].split())
-        known = published.MEGABYTES.get(PUBLISHED_AS.get(kind)) if r["scene"] == "living-room" else None
+        known = published.MEGABYTES.get(PUBLISHED_AS.get(kind, kind)) if r["scene"] == "living-room" else None
         if kind.startswith("control"):
             name, targets = f"Rousselle, {kind.partition('-')[2]}", "any"
             theirs = ", ".join(map(str, known or ()))
