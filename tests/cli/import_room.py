@@ -30,6 +30,8 @@ MODELS = {
                                    ('Board', (60, .5, 50), (80, 30, 70))]),
     'shelves': dict(inside=[], boxes=[('Board', (0, y, 0), (1, y + .02, .4)) for y in (0, .5, 1, 1.5, 2)] +
                     [('Side', (x, 0, 0), (x + .02, 2, .4)) for x in (0, .98)] + [('Back', (0, 0, -.02), (1, 2, 0))]),
+    # nowhere are .4 m free on all sides
+    'passage': dict(inside=[('Walls', (0, 0, 0), (.6, 2.6, 5))], boxes=[]),
     'two_walls': dict(inside=[], boxes=[('Base', (0, -.1, 0), (4, 0, 4)), ('Left', (0, 0, 0), (.1, 2.5, 4)),
                                         ('Front', (.1, 0, 3.9), (4, 2.5, 4)), ('Table', (1, 0, 1), (2, .75, 2))]),
 }

@@ -124,13 +124,15 @@ $ for m in panes_before panes_behind shared; do
 > 0 6
 > 1 7
 > 0 11
-$ for m in plane solid hull; do retex-import --camera cutaway $m.obj -o y; echo $?; done
+$ for m in plane solid hull passage; do retex-import --camera cutaway $m.obj -o y; echo $?; done
+> 2
 > 2
 > 2
 > 2
 ! retex-import: error: --camera cutaway: plane.obj: there is no room in it
 ! retex-import: error: --camera cutaway: solid.obj: there is no room in it
 ! retex-import: error: --camera cutaway: hull.obj: there is no room in it
+! retex-import: error: --camera cutaway: passage.obj: there is no room in it
 
 # Cameras of the model come first; words stand for views, and a camera of such a name has its number.
 $ retex-import -f -q camera.gltf -o x && grep '^camera' x/x.pov
