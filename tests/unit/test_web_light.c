@@ -11,21 +11,22 @@
 
 #include "web/light.h"
 
-enum { TILES = 9, NEAR = 3 };
+enum { TILES = 10, BLACK = 9, NEAR = 3 };
 
 /* Shelves of the atlas: two tiles and a third that does not fit beside them, then lower and narrower ones. The widest
  * shelf is neither the first nor the last. */
 static const struct {
     int width, height, channels;
 } sizes[TILES] = {{1500, 9, 3}, {1501, 20, 1}, {2000, 17, 3}, {2050, 3, 1}, {4000, 8, 3},
-                  {100, 30, 1}, {7, 7, 3},     {2041, 16, 1}, {33, 12, 3}};
+                  {100, 30, 1}, {7, 7, 3},     {2041, 16, 1}, {33, 12, 3}, {24, 14, 3}};
 
-/* The steps that the plan asks for: the atlas has the finest; others have fewer levels, but at least 16. */
-static const double steps[TILES] = {1.5, 3, 12, 1.5, 2, 400, 6, 1.5, 5};
+/* The steps that the plan asks for: the atlas has the finest; others have fewer levels, but at least 16. A black image
+ * asks for none. */
+static const double steps[TILES] = {1.5, 3, 12, 1.5, 2, 400, 6, 1.5, 5, INFINITY};
 
 static float most_of(int tile)
 {
-    return 0.08f * (float)(tile + 1);
+    return tile == BLACK ? 0 : 0.08f * (float)(tile + 1);
 }
 
 static void fill(RetexImage *im, int tile)
@@ -99,7 +100,9 @@ static void tiles_are_where_they_say(void **state)
         test_must(retex_set_add_part(set, name, sizes[i].channels == 3 ? "RGB" : "R", RETEX_HALF, sizes[i].width,
                                      sizes[i].height, &tiles[i].part, &err),
                   &err);
-        packed[tiles[i].part] = (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = {1, 255}, .jpeg_step = steps[i]};
+        packed[tiles[i].part] =
+            i == BLACK ? (RetexPackPart){.codec = RETEX_PACK_ZERO}
+                       : (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = {1, 255}, .jpeg_step = steps[i]};
     }
     for (int i = 0; i < TILES; i++)
         fill(&set->parts[tiles[i].part].image, i);

@@ -21,7 +21,7 @@ static int no_memory(RetexError *err)
     return retex_fail(err, RETEX_ENOMEM, "no memory to encode light");
 }
 
-/* The curve that has room for the brightest pixel, and the step of its levels that the plan asks for. */
+/* The curve that has room for the brightest pixel, and the step of its levels that the plan asks for; black: any. */
 static RetexPackCurve choose_curve(const RetexImage *im, const RetexPackPart *packed, double *step)
 {
     const double planned = packed->codec == RETEX_PACK_JPEG ? packed->curve.white : 1;
@@ -33,7 +33,7 @@ static RetexPackCurve choose_curve(const RetexImage *im, const RetexPackPart *pa
         const RetexPackCurve unit = {curve.white, 1};
         curve.levels = fmax(LEVEL_MOST / retex_pack_curve_level(&unit, most), WHITE_LEVEL_LEAST);
     }
-    *step = 1;
+    *step = packed->codec == RETEX_PACK_ZERO ? INFINITY : 1;
     if (packed->codec == RETEX_PACK_JPEG)
         *step = packed->jpeg_step / packed->curve.levels * curve.levels * pow(planned / curve.white, 1 / GAMMA);
     *step = fmax(*step, 1);
