@@ -228,7 +228,7 @@ static Node *parse_primary(Compiler *compiler)
     if (token->kind == TOKEN_IDENT)
         return parse_identifier(compiler);
     if (token->kind == TOKEN_WORD) {
-        const Builtin *builtin = word_intern(sdl, token->text, strlen(token->text))->builtin;
+        const Builtin *builtin = token->word->builtin;
         if (builtin)
             return parse_builtin(compiler, builtin);
     }

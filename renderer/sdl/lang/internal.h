@@ -33,7 +33,7 @@ typedef struct Source Source;
 #define SEMICOLON_VERSION 3.5 /* from here on a declared number ends with a semicolon */
 
 /* An interned word of the scene: one per spelling. */
-typedef struct Word {
+struct Word {
     const char *text;
     size_t length;
     uint32_t hash;
@@ -43,7 +43,7 @@ typedef struct Word {
     Symbol *symbol;         /* the innermost visible symbol of this name, or NULL */
     struct Word *next;      /* next word of the hash bucket */
     int declaring;          /* line of the declaration that is being parsed, else 0 */
-} Word;
+};
 
 typedef enum RawKind { RAW_END, RAW_NUMBER, RAW_STRING, RAW_WORD, RAW_PUNCT, RAW_DIRECTIVE, RAW_BAD } RawKind;
 

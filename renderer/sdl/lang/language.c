@@ -131,7 +131,7 @@ static void describe_open_block(Sdl *sdl, const char *expected, char *out, size_
     const Token *token = &sdl->token;
     int closes = strchr(expected, '}') || strstr(expected, "the end of the");
     *out = 0;
-    if (token->kind == TOKEN_WORD && !word_intern(sdl, token->text, strlen(token->text))->reserved)
+    if (token->kind == TOKEN_WORD && !token->word->reserved)
         return;
     if (!sdl->block_depth || (token->kind != TOKEN_END && !closes))
         return;

@@ -12,6 +12,7 @@
 #include "sdl/lang/options.h"
 
 typedef struct Sdl Sdl;
+typedef struct Word Word;
 
 /* Tokens after directives and macros were processed. The text of a keyword is an interned lower-case string: compare
  * it by pointer or with sdl_accept. */
@@ -62,6 +63,7 @@ typedef struct Token {
     char punct; /* TOKEN_PUNCT: the character; 'l' 'g' 'n' for <= >= != */
     double number;
     const char *text; /* interned word, identifier as written, or content of the string */
+    const Word *word; /* TOKEN_WORD: the word itself */
     Value *value;     /* TOKEN_IDENT: the stored value (assignable through by-reference parameters) */
     const char *file;
     int line, column;

@@ -148,6 +148,7 @@ static int fill(Sdl *sdl, int stop, int any)
             else {
                 set_token(sdl, raw, TOKEN_WORD);
                 sdl->token.text = raw->as.word->text;
+                sdl->token.word = raw->as.word;
             }
             break;
         case RAW_DIRECTIVE:
@@ -365,7 +366,7 @@ void stream_describe(Sdl *sdl, const Token *token, char *out, size_t size)
             snprintf(out, size, "`%c`", token->punct);
         break;
     case TOKEN_WORD:
-        word = word_intern(sdl, token->text, strlen(token->text));
+        word = token->word;
         if (word->reserved) {
             snprintf(out, size, "`%.60s`", token->text);
             break;
