@@ -1,7 +1,7 @@
 # Levels of packs: smaller sets beside the set, for small pictures.
 $ ln -s "$SCENES/textures" textures
 $ ln -s "$SCENES/cornell-box/textures/encaustic-tiles.jpg" tiles.jpg
-$ retex-render -q --size 486x60 --spp 16 --lamps each -t Floor -t Left -DGlass=1 -DLamps=1 "$TESTS/../golden/room.pov" \
+$ retex-render -q --denoise --size 486x60 --spp 16 --lamps each -t Floor -t Left -DGlass=1 -DLamps=1 "$TESTS/../golden/room.pov" \
 +     -o s.exr
 $ retex-pack -q s.exr --levels -o l.retex
 $ retex-pack -q s.exr -o n.retex
@@ -43,11 +43,11 @@ $ retex-info u.exr | grep ^size
 # Pictures of it are those of the whole set, averaged: with textures, with one lamp, and with colours; each to at least so
 # many dB, for its quality is up to 20 less than the pack's.
 $ cat >edits <<'END'
-+ 43 --texture Floor=textures/brick.jpg
-+ 41 --texture:scale=3 Floor=tiles.jpg --texture Left=textures/damask.jpg
-+ 34 --texture Floor=tiles.jpg --solo light1
-+ 44 --texture Left=red
-+ 44
++ 46 --texture Floor=textures/brick.jpg
++ 46 --texture:scale=3 Floor=tiles.jpg --texture Left=textures/damask.jpg
++ 37 --texture Floor=tiles.jpg --solo light1
++ 46 --texture Left=red
++ 47
 + END
 $ while read -r least t; do
 +     retex-combine -q l.retex $t -o a.exr
@@ -136,7 +136,7 @@ $ for what in byte other none; do
 > 1
 > 2
 ! retex-info: error: the pack is damaged: the checksum is wrong of 'level-3.retex'
-! retex-pack: error: d.retex: level-3.retex: the pack is damaged: the checksum is wrong of part 'gain_Left_broad_a3'
+! retex-pack: error: d.retex: level-3.retex: the pack is damaged: the checksum is wrong of part 'gain_Left_sharp_a1b2'
 ! retex-info: error: the pack is damaged: it has another set as 'level-3.retex'
 ! retex-pack: error: the pack is damaged: it has another set as 'level-3.retex'
 ! retex-info: error: d.retex: the pack is damaged: it lacks 'level-3.retex'

@@ -3,12 +3,12 @@
 % render() { retex-render -q --size 48x36 --spp 4 room.pov -t Floor -t Wall "$@"; }
 $ mkdir -p rooms textures/wood textures/tiles
 $ cp "$TESTS/finishes.pov" room.pov
-$ cp "$SCENES/textures/brick.jpg" .
+$ oiiotool "$SCENES/textures/brick.jpg" --resize 192x192 -o brick.jpg
 $ render --finish Floor=matt,satin,polished -o three.exr
 $ render --finish Floor=polished,matt -o two.exr
 $ render --finish Wall=normals -o walls.exr
 $ for s in three two walls; do retex-pack -q $s.exr -o rooms/$s.retex; done
-$ cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg
+$ oiiotool "$SCENES/living-room/textures/oak-planks.jpg" --resize 192x192 -o textures/oak.jpg
 $ cp textures/oak.jpg textures/wood/wood_diff.jpg
 $ cat >maps.py <<'END'
 + import struct, zlib

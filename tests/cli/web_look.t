@@ -3,7 +3,9 @@ $ ln -s "$SCENES" scenes
 $ retex-render -q --size 96x54 --spp 16 --denoise -t Floor -t Wall --lamps each scenes/living-room/living-room.pov \
 +     -o s.exr
 $ rm scenes
-$ cp -r "$SCENES/textures" T
+$ mkdir T; for t in brick damask fans travertine walnut-herringbone; do
++     oiiotool "$SCENES/textures/$t.jpg" --resize 256x256 -o T/$t.jpg
++ done
 $ cp T/walnut-herringbone.jpg 'T/my; oak %.jpg'
 $ oiiotool T/brick.jpg --iscolorspace sRGB --tocolorspace linear --nosoftwareattrib -d half -o T/brick.exr
 $ mkdir -p looks
