@@ -256,6 +256,11 @@ static void test_errors(void **state)
                 "index 3 is outside of an array of 3 elements");
     check_error(V "#declare A = <1,2,3>.x.y.q;", RETEX_EPARSE, 2, 26,
                 "expected a component such as x or red after the `.`, found `q`");
+    check_error(V "#declare C = rgb 1; #declare A = sin(C);", RETEX_EPARSE, 2, 39, "expected a float, found a color");
+    check_error(V "#declare C = rgb 1; #declare A = sin(<1,2,3> + C);", RETEX_EPARSE, 2, 49,
+                "expected a float, found a color");
+    check_error(V "#declare C = rgb 1; #declare A = sin(C.red * <1,2,3>);", RETEX_EPARSE, 2, 53,
+                "expected a float, found a vector");
     check_error(V "#macro M(A) #end M(1,2)", RETEX_EPARSE, 2, 21, "the macro `M` has only 1 parameters");
     check_error(V "#macro M(A) #end M()", RETEX_EPARSE, 2, 20, "the macro `M` has 1 parameters, 0 given");
     check_error(V "#if (1) #debug \"x\"", RETEX_EPARSE, 2, 1, "a directive without its #end");
