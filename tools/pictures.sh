@@ -27,6 +27,15 @@ picture() {
     retex-combine -q "$from" "$@" -o "$to"
 }
 
+# again NAME OPTION…: $out/NAME.jpg, the scene of glass rendered again with a new floor; kept, as sets are.
+again() {
+    kept=$sets/$1.jpg to=$out/$1.jpg
+    shift
+    [ -e "$kept" ] || retex-render --spp "$spp" "$@" --replace "Floor=$textures/fans.jpg" \
+        scenes/glass-caustics/glass-caustics.pov -o "$kept"
+    cp "$kept" "$to"
+}
+
 set_of living-room scenes/living-room/living-room.pov 640x360 Floor Wall
 picture living-room living-room
 picture living-room living-room-walnut --texture "Floor=$textures/walnut-herringbone.jpg"
@@ -77,8 +86,7 @@ picture kitchen kitchen-travertine-fans --texture "Floor=$textures/travertine.jp
 set_of glass-caustics scenes/glass-caustics/glass-caustics.pov 640x480 Floor
 picture glass-caustics glass-caustics
 picture glass-caustics glass-caustics-fans --texture "Floor=$textures/fans.jpg"
-retex-render --size 640x480 --spp "$spp" --replace "Floor=$textures/fans.jpg" \
-    scenes/glass-caustics/glass-caustics.pov -o "$out/glass-caustics-fans-truth.jpg"
+again glass-caustics-fans-truth --size 640x480
 
 # A part at four times the size, without smoothing: the floor through the glass ball and in the mirror.
 crop='--size 1280x960 --crop 130,150,420,330'
@@ -87,8 +95,7 @@ crop='--size 1280x960 --crop 130,150,420,330'
     retex-render $crop --spp "$spp" -t Floor scenes/glass-caustics/glass-caustics.pov -o "$sets/glass-crop.exr"
 picture glass-crop glass-crop --quality 97 --texture "Floor=$textures/fans.jpg"
 # shellcheck disable=SC2086
-retex-render $crop --spp "$spp" --seed 1 --replace "Floor=$textures/fans.jpg" scenes/glass-caustics/glass-caustics.pov \
-    -o "$out/glass-crop-truth.jpg"
+again glass-crop-truth $crop --seed 1
 
 set_of cornell-box scenes/cornell-box/cornell-box.pov 400x400 Floor
 picture cornell-box cornell-box
@@ -111,9 +118,10 @@ examples=/usr/share/doc/povray/examples
 if [ -d "$examples" ] && command -v povray >/dev/null; then
     rows=
     while read -r what scene target texture _; do
-        case $what in '#'*) continue ;; esac
+        # the blocks are white in white light, which POV-Ray's radiosity of one recursion sends once
+        case $what in '#'*) continue ;; text) depth=2 ;; *) depth=16 ;; esac
         base=$sets/sample-$what
-        sample() { retex-render -q --lenient --size 240x180 --spp "$spp" "$@" --denoise "$examples/$scene.pov"; }
+        sample() { retex-render -q --lenient --size 240x180 --spp "$spp" --max-depth $depth "$@" --denoise "$examples/$scene.pov"; }
         [ -e "$base.exr" ] || sample -t "$target" -o "$base.exr"
         [ -e "$base-again.png" ] || sample --plain --seed 1 --replace "$target=$textures/$texture" -o "$base-again.png"
         (cd "$(dirname "$examples/$scene")" &&
