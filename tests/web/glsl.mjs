@@ -42,6 +42,11 @@ function translate(text) {
     if (accept("!")) return `!${postfix()}`;
     return list[at].kind === "number" ? take() : take().replace(/^(?!gl_|true$|false$)/, "$$$&");
   }
+  /* Parts of a vector: `v.x` is a number. */
+  function swizzle(left, name) {
+    const places = [...name].map((c) => Math.max("xyzw".indexOf(c), "rgba".indexOf(c)));
+    return places.length === 1 ? `${left}[${places}]` : `G.swizzle(${left}, [${places}])`;
+  }
   function postfix() {
     let left = primary();
     for (;;) {
@@ -52,7 +57,7 @@ function translate(text) {
       } else if (accept("[")) {
         left += `[${expression()}]`;
         take("]");
-      } else if (accept(".")) left = `G.swizzle(${left}, "${take()}")`;
+      } else if (accept(".")) left = swizzle(left, take());
       else return left;
     }
   }
@@ -61,7 +66,7 @@ function translate(text) {
     let left = binary(level + 1);
     while (LEVELS[level].includes(peek())) {
       const sign = take(), right = binary(level + 1);
-      left = level === 0 || level === 1 || level === 4 || level === 5 ? `(${left} ${sign} ${right})` : `G.apply("${sign}", ${left}, ${right})`;
+      left = level === 0 || level === 1 || level === 4 || level === 5 ? `(${left} ${sign} ${right})` : `G["${sign}"](${left}, ${right})`;
     }
     return left;
   }
@@ -73,10 +78,10 @@ function translate(text) {
     return `(${left} ? ${yes} : ${expression()})`;
   }
   function assignment() {
-    const left = postfix(), sign = take(), swizzled = /^G\.swizzle\((\$\w+), "(\w+)"\)$/.exec(left);
+    const left = postfix(), sign = take(), swizzled = /^G\.swizzle\((\$\w+), (\[[\d,]+\])\)$/.exec(left);
     if (sign === "++") return `${left}++`;
-    const value = sign === "=" ? expression() : `G.apply("${sign[0]}", ${left}, ${expression()})`;
-    return swizzled ? `G.store(${swizzled[1]}, "${swizzled[2]}", ${value})` : `${left} = ${value}`;
+    const value = sign === "=" ? expression() : `G["${sign[0]}"](${left}, ${expression()})`;
+    return swizzled ? `G.store(${swizzled[1]}, ${swizzled[2]}, ${value})` : `${left} = ${value}`;
   }
   function declaration() {
     const names = [];
@@ -144,29 +149,22 @@ function translate(text) {
 
 /* ---- what GLSL has ---- */
 
-const parts = (x) => (Array.isArray(x) ? x.length : 0), part = (x, i) => (Array.isArray(x) ? x[i] : x);
-/* f of one to three values, part by part where one is a vector. Most of the time is spent here. */
-const each = (f, a, b, c) => {
-  const longest = Math.max(parts(a), parts(b), parts(c));
-  if (!longest) return f(a, b, c);
-  const values = [];
-  for (let i = 0; i < longest; i++) values.push(f(part(a, i), part(b, i), part(c, i)));
-  return values;
-};
+/* A function of a, b and c, part by part where one is a vector. Each is made of its formula's text, so that the engine
+ * compiles it for itself: most of the time is spent here. */
+const each = (formula) => new Function("a", "b", "c", `const f = (a, b, c) => ${formula}, A = Array.isArray(a), B = Array.isArray(b), C = Array.isArray(c);
+  if (!A && !B && !C) return f(a, b, c);
+  const values = [], { length } = A ? a : B ? b : c;
+  for (let i = 0; i < length; i++) values.push(f(A ? a[i] : a, B ? b[i] : b, C ? c[i] : c));
+  return values;`);
 const isMatrix = (x) => Array.isArray(x) && Array.isArray(x[0]);
-const SIGNS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, "&": (a, b) => a & b, "|": (a, b) => a | b,
-  "<<": (a, b) => a << b, ">>": (a, b) => a >> b };
+const SIGNS = Object.fromEntries("+ - * / & | << >>".split(" ").map((sign) => [sign, each(`a ${sign} b`)]));
 const times = (m, v) => v.map((_, row) => v.reduce((sum, x, column) => sum + m[column][row] * x, 0));
-const known = {}; // the places of names
-const places = (name) => (known[name] ??= [...name].map((c) => Math.max("xyzw".indexOf(c), "rgba".indexOf(c))));
 const G = {
-  negative: (x) => each((a) => -a, x),
-  apply: (sign, a, b) => {
-    if (sign === "*" && isMatrix(a)) return isMatrix(b) ? b.map((column) => times(a, column)) : times(a, b);
-    return typeof a === "object" || typeof b === "object" ? each(SIGNS[sign], a, b) : SIGNS[sign](a, b);
-  },
-  swizzle: (x, name) => (name.length === 1 ? x[places(name)[0]] : places(name).map((k) => x[k])),
-  store: (x, name, value) => places(name).forEach((k, i) => { x[k] = name.length === 1 ? value : value[i]; }),
+  negative: each("-a"),
+  ...SIGNS,
+  "*": (a, b) => (!isMatrix(a) ? SIGNS["*"](a, b) : isMatrix(b) ? b.map((column) => times(a, column)) : times(a, b)),
+  swizzle: (x, places) => places.map((k) => x[k]),
+  store: (x, places, value) => places.forEach((k, i) => { x[k] = value[i]; }),
 };
 
 const floats = (x) => Number(x), wholes = (x) => BigInt(Math.trunc(Number(x)));
@@ -178,23 +176,21 @@ const vector = (size, convert) => (...args) => {
   }
   return flat.length === 1 ? Array(size).fill(flat[0]) : flat.slice(0, size);
 };
-const bits = new DataView(new ArrayBuffer(4));
+const bits = new DataView(new ArrayBuffer(4)), bitsToFloat = (b) => (bits.setUint32(0, Number(b)), bits.getFloat32(0));
 const BUILT_IN = {
   float: floats, int: wholes, vec2: vector(2, floats), vec3: vector(3, floats), vec4: vector(4, floats), ivec2: vector(2, wholes), ivec3: vector(3, wholes),
   mat2: (a, b, c, d) => [[a, b], [c, d]],
   transpose: (m) => [[m[0][0], m[1][0]], [m[0][1], m[1][1]]],
   inverse: ([[a, b], [c, d]]) => { const e = a * d - b * c; return [[d / e, -b / e], [-c / e, a / e]]; },
-  mix: (a, b, t) => each((x, y, s) => (typeof s === "boolean" ? (s ? y : x) : x * (1 - s) + y * s), a, b, t),
-  clamp: (x, low, high) => each((a, l, h) => (a < l ? l : a > h ? h : a), x, low, high),
-  min: (a, b) => each((x, y) => (y < x ? y : x), a, b), max: (a, b) => each((x, y) => (y > x ? y : x), a, b),
-  pow: (a, b) => each(Math.pow, a, b), atan: (y, x) => Math.atan2(y, x), exp2: (x) => each((a) => 2 ** a, x), fract: (x) => each((a) => a - Math.floor(a), x),
+  mix: each('typeof c === "boolean" ? (c ? b : a) : a * (1 - c) + b * c'), clamp: each("a < b ? b : a > c ? c : a"),
+  min: each("b < a ? b : a"), max: each("b > a ? b : a"),
+  pow: each("Math.pow(a, b)"), atan: Math.atan2, exp2: each("2 ** a"), fract: each("a - Math.floor(a)"),
   length: (x) => Math.hypot(...x), dot: (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0), any: (x) => x.some(Boolean),
-  lessThan: (a, b) => each((x, y) => x < y, a, b), greaterThan: (a, b) => each((x, y) => x > y, a, b),
-  uintBitsToFloat: (x) => each((b) => (bits.setUint32(0, Number(b)), bits.getFloat32(0)), x),
+  lessThan: each("a < b"), greaterThan: each("a > b"), uintBitsToFloat: (x) => (Array.isArray(x) ? x.map(bitsToFloat) : bitsToFloat(x)),
   texelFetch: (sampler, place) => sampler.texel(...place.map(Number)),
   textureSize: (sampler) => (sampler.layers ? [sampler.width, sampler.height, sampler.layers] : [sampler.width, sampler.height]).map(BigInt),
   texture: (sampler, place) => sampler.lookUp(place, 0), textureLod: (sampler, place, lod) => sampler.lookUp(place, lod),
-  ...Object.fromEntries("exp floor ceil sqrt cos sin abs log2 sign".split(" ").map((name) => [name, (x) => each(Math[name], x)])),
+  ...Object.fromEntries("exp floor ceil sqrt cos sin abs log2 sign".split(" ").map((name) => [name, each(`Math.${name}(a)`)])),
 };
 
 /* Compiles a fragment shader: its uniforms, and a function of their values, by name, that returns one of a place on the
