@@ -5,7 +5,8 @@
 # job of a suite; JOBS of them run at a time. It is one more failure if a job has a bad exit status without a failed
 # test, reports fewer results than its plan, or reports none. Failures and skips are printed with their output. The
 # whole output is kept in $BUILD/tests/log/SUITES/. The last line is `N passed, M failed, K skipped`; exit 1 after a
-# failure. A job that is not done after 20 minutes is killed and fails; those of long and mutants take their time.
+# failure. A job that is not done after 20 minutes is killed and fails; those of long and mutants, and the one that lets
+# every call fail, take their time.
 #
 # CI=true: a skip is a failure unless the job's name is listed in tests/lib/may-skip.
 set -u
@@ -60,7 +61,7 @@ export BUILD logs
 run_job='
 name=$1; shift
 log=$logs/$(echo "$name" | tr / .).log
-case $name in long/* | mutants/*) limit=0 ;; *) limit=${JOB_SECONDS:-1200} ;; esac
+case $name,${RETEX_FAULTS:-} in long/*,* | mutants/*,* | faults/*,all) limit=0 ;; *) limit=${JOB_SECONDS:-1200} ;; esac
 timeout --foreground -k 10 "$limit" "$@" >"$log" 2>&1 </dev/null
 status=$?
 times >"$log.times" # in a file: a command substitution would be another process, without children
