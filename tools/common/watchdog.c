@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -256,9 +257,9 @@ static void wait_for_work(void)
     }
 }
 
-static void *watch(void *unused)
+static void *watch(void *started)
 {
-    (void)unused;
+    sem_post(started);
     for (;;) {
         const uint64_t in_use = bytes_in_use(), most = retex_budget_memory(dog.budget);
         const int number = take_signal(milliseconds_to_wait(in_use));
@@ -282,15 +283,20 @@ static void *watch(void *unused)
 
 void watchdog_start(void)
 {
+    static sem_t started;
     pthread_t thread;
     pthread_attr_t attributes;
 
     if (atomic_exchange(&dog.started, 1))
         return;
+    sem_init(&started, 0, 0);
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, STACK_BYTES);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    if (pthread_create(&thread, &attributes, watch, NULL) != 0) /* signals keep their default action */
+    if (pthread_create(&thread, &attributes, watch, &started) != 0) /* signals keep their default action */
         pthread_sigmask(SIG_UNBLOCK, &dog.signals, NULL);
+    else /* a tool that forks while a thread starts may copy locks that the thread holds: the address sanitizer's */
+        while (sem_wait(&started) != 0)
+            continue;
     pthread_attr_destroy(&attributes);
 }
