@@ -12,6 +12,7 @@
 #include <retex/color_text.h>
 #include <retex/output_file.h>
 
+#include "base/json_write.h"
 #include "edit/edit.h"
 #include "io/input.h"
 
@@ -255,7 +256,7 @@ int retex_preset_write(const RetexEdit *edit, const char *path, RetexError *err)
     int code = make_text(&text, edit, path, err);
     if (!code) {
         json_t *root = json_pack("{s:i, s:s}", VERSION_KEY, (int)VERSION, EDIT_KEY, text);
-        file = json_dumps(root, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
+        file = retex_json_text(root, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
         line = file ? realloc(file, strlen(file) + 2) : NULL;
         if (line)
             strcat(line, "\n");

@@ -186,7 +186,7 @@ char *retex_pack_describe(const char *manifest, const RetexSet *set, const Retex
         retex_json_put(&pack, "levels", scales);
     }
     retex_json_put(&root, "pack", pack);
-    char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    char *text = retex_json_text(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(root);
     if (text)
         retex_manifest_seal(text);

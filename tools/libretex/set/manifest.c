@@ -330,7 +330,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
     if (root && samples)
         retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0, !set));
     const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
-    char *dumped = root && finite ? json_dumps(root, style) : NULL;
+    char *dumped = root && finite ? retex_json_text(root, style) : NULL;
     json_decref(root);
     if (!finite)
         return retex_fail(err, RETEX_EINVAL, "the set's description has a number that is infinite or NaN");

@@ -8,6 +8,7 @@
 
 #include <retex/reduce.h>
 
+#include "base/json_write.h"
 #include "base/params.h"
 #include "compact/compact.h"
 #include "pack/plan.h"
@@ -526,7 +527,7 @@ static char *describe(const Web *web, const json_t *smaller, RetexError *err)
         describe_terms(&object, web);
     if (json_array_size(smaller))
         retex_json_put(&object, "smaller", json_deep_copy(smaller));
-    char *json = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
+    char *json = object ? retex_json_text(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
     if (!json)
         no_memory(err);
