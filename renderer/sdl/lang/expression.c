@@ -4,8 +4,8 @@
 #include <string.h>
 #include "sdl/lang/internal.h"
 
-/* What these read is written through a pointer, not returned: numbers of 48 bytes that are copied right after they were
- * written, level after level, took a third of the time. */
+/* What these read is written through a pointer, not returned: a number has 48 bytes, and to copy it from level to level
+ * right after it was written makes the processor wait. */
 static void factor(Sdl *sdl, int frame, Num *result);
 static void full(Sdl *sdl, Num *result);
 
