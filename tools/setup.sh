@@ -66,6 +66,7 @@ command zsh zsh
 command fish fish
 file /usr/share/bash-completion/bash_completion bash-completion
 command node nodejs
+file /usr/share/nodejs/jsdom/package.json node-jsdom
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
 '

@@ -33,8 +33,6 @@ export function smaller(image, most) {
   return context.canvas;
 }
 
-/* What a texture keeps of a map: its address, for links, its name, and the channel that is roughness. */
-
 /* Whether a map is grey: its value then goes through the list of finishes. Else red is the second, green the third, blue
  * the fourth, and the rest the first. JPEG stores colours and not grey. */
 export function isGrey(image) {
