@@ -293,6 +293,25 @@ test("links have the state of this room beside others, and the state comes back"
   same(room.getState().light, { exposure: 0, warmth: 0, view: "Raw" });
 });
 
+test("a white balance is Bradford's: its colour becomes white, and cones are scaled apart", () => {
+  const { developMatrix, kelvinColor } = player(), of = (m, v) => m.map((row) => row.reduce((sum, x, k) => sum + x * v[k], 0)), times = (a, b) => a.map((row) => [0, 1, 2].map((j) => row.reduce((sum, x, k) => sum + x * b[k][j], 0)));
+  const bradford = [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]];
+  const xyz = [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.072175], [0.0193339, 0.119192, 0.9503041]], cones = times(bradford, xyz);
+  for (const whiteBalance of [2000, 3200, 6500, 15000]) {
+    const flat = developMatrix({ exposure: 0, warmth: 0, whiteBalance }), matrix = [0, 3, 6].map((k) => flat.slice(k, k + 3)), lit = kelvinColor(whiteBalance);
+    near(of(matrix, lit), [1, 1, 1], 1e-5, `${whiteBalance} K`);
+    const scales = of(cones, [1, 1, 1]).map((x, k) => x / of(cones, lit)[k]);
+    times(cones, matrix).forEach((row, k) => near(row, cones[k].map((x) => scales[k] * x), 1e-5, `${whiteBalance} K, cone ${k}`));
+  }
+  near(developMatrix({ exposure: 1, warmth: 0.5 }, -3), [0.25 * 2 ** 0.2, 0, 0, 0, 0.25, 0, 0, 0, 0.25 * 2 ** -0.2], 1e-12);
+});
+
+test("where a texture is clear, a pass with a map keeps the originals of other finishes black", () => {
+  const { Renderer } = player(), targets = [{ products: ["a", "b"] }, { products: ["c", "d"] }, { products: ["e"] }, {}];
+  const inPass = (mapped, pass, shown) => Renderer.prototype.inPass.call({ room: { targets } }, mapped, pass, shown);
+  same(inPass([true, true, true, false], [1, 2, 0, 1], [1, 1, 1, 2]), { keeps: [1, 0, 1, 1], image0: "a", image1: "d" });
+});
+
 /* ---- textures that are made ---- */
 
 /* A floor and a rug of unknown size, with what the renderer is given. */
