@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "set/signals.h"
+
 /* A target with two sharp clusters, one broad one and two later footprints, as layout footprints describes it before
  * anything is known of its pixels; light of sharp ones that goes on, and noise. */
 typedef struct Fixture {
@@ -100,7 +102,7 @@ static void expect_names(const Fixture *f)
                                 names[f->set->footprints[share->footprint].hit]);
         }
     for (int t = 1; t < f->set->nterms; t++)
-        if (f->set->terms[t].nfactors == 1)
+        if (f->set->terms[t].nfactors == 1 && retex_term_hits(&f->set->terms[t]))
             assert_string_equal(strchr(f->set->parts[f->set->terms[t].radiance].name, '_') + 1,
                                 names[f->set->footprints[test_factor_number(f->set->terms[t].factors[0])].hit]);
 }
@@ -144,6 +146,7 @@ static void footprints_take_along_what_hangs_on_them(void **state)
     assert_true(has(&f, "indep") && has(&f, "spread_sharp1") && has(&f, "depth"));
     assert_true(has(&f, "noise_indep") && has(&f, "noise_T_sharp") && !has(&f, "noise_T_broad"));
     assert_true(!has(&f, "albedo_sharp2") && !has(&f, "share_sharp1") && !has(&f, "share_interreflection1"));
+    assert_true(has(&f, "share_interreflection2")); /* it says how much of later light is of no target */
     expect_names(&f);
     retex_set_close(&f.set);
 }
@@ -202,6 +205,64 @@ static void a_target_that_no_pixel_has_leaves_nothing(void **state)
     retex_set_close(&f.set);
 }
 
+static void noise_of_the_picture_stays_where_it_has_no_terms(void **state)
+{
+    (void)state;
+    Fixture f = {.set = NULL};
+    RetexError err;
+    test_must(retex_set_create(&f.set, 2, 1, &err), &err);
+    add_part(&f, "beauty", "RGB");
+    add_part(&f, "noise_beauty", "RGB");
+    add_part(&f, "noise_indep", "RGB"); /* of no term */
+    retex_set_prune(f.set, f.empty);
+    assert_true(has(&f, "noise_beauty") && !has(&f, "noise_indep"));
+    retex_set_close(&f.set);
+}
+
+/* Terms of lamps go, with what they alone have: mixture 1 of three, a part of light, its noise. Another parameter of
+ * another kind stays, under its new number. */
+static void lamps_are_left_out(void **state)
+{
+    (void)state;
+    Fixture f;
+    RetexError err;
+    RetexParameter lamp = {.name = "Sun", .kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 2, 3}, .kept = {1, 2, 3}};
+    int sun, correction;
+    begin(&f);
+    test_must(retex_set_add_parameter(f.set, &lamp, &sun, &err), &err);
+    const RetexTerm corrects = {.target = 0, .radiance = f.set->terms[0].radiance};
+    test_must(retex_set_add_correction(f.set, &corrects, &correction, &err), &err);
+    const int nterms = f.set->nterms, nparts = f.set->nparts;
+    RetexTerm term = test_term(f.set, add_part(&f, "lamp_Sun", "RGB"), 1, (int[]){MIXTURE(1)});
+    term.role = RETEX_ROLE_LAMP;
+    test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, sun), &err), &err);
+    test_must(retex_set_add_term(f.set, &term, NULL, &err), &err);
+    char noise[RETEX_NAME_MAX];
+    retex_signal_noise_name(f.set, &f.set->terms[f.set->nterms - 1], noise);
+    add_part(&f, noise, "RGB");
+
+    f.set->parameters[sun].value[1] = 0; /* off in the picture */
+    assert_int_equal(retex_set_drop_lamps(f.set, &err), RETEX_EINVAL);
+    f.set->parameters[sun].value[1] = 2;
+    test_must(retex_set_drop_lamps(f.set, &err), &err);
+    assert_int_equal(f.set->nterms, nterms);
+    assert_true(!has(&f, "lamp_Sun") && !has(&f, noise) && has(&f, "noise_indep") && has(&f, "noise_T_broad"));
+    assert_int_equal(f.set->nparts, nparts - 1);
+    assert_false(has(&f, "share_broad1")); /* of mixture 1 */
+    assert_int_equal(f.set->nmixtures, 2);
+    assert_int_equal(f.set->nparameters, 1);
+    assert_int_equal(f.set->parameters[0].kind, RETEX_PARAMETER_CORRECTION);
+    assert_int_equal(f.set->terms[correction].factors[0].index, 0);
+    const int again = correction - 1;
+    assert_string_equal(f.set->parts[f.set->terms[again].radiance].name, "dep_sharp_a2");
+    for (int k = 0; k < 3; k++)
+        assert_int_equal(test_factor_number(f.set->terms[again].factors[k]), MIXTURE(k > 0));
+    expect_names(&f);
+    test_must(retex_set_drop_lamps(f.set, &err), &err); /* there are none */
+    assert_int_equal(f.set->nterms, nterms);
+    retex_set_close(&f.set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -210,6 +271,8 @@ int main(void)
         cmocka_unit_test(terms_go_without_light),
         cmocka_unit_test(terms_go_without_their_gain),
         cmocka_unit_test(a_target_that_no_pixel_has_leaves_nothing),
+        cmocka_unit_test(noise_of_the_picture_stays_where_it_has_no_terms),
+        cmocka_unit_test(lamps_are_left_out),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -39,6 +39,7 @@ static void test_set_there_and_back(void **state)
         test_must(retex_set_write(back, NULL, path, &params, 3, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
         assert_int_equal(retex_set_read(path, NULL, &none, 2, &err), RETEX_EFORMAT);
+        assert_non_null(strstr(err.message, "holds a set, no samples"));
         retex_set_close(&set);
         retex_set_close(&back);
         retex_set_close(&back);
@@ -55,6 +56,10 @@ static void test_footprints_there_and_back(void **state)
     RetexError err = {0};
     test_make_footprints(set);
     set->terms[set->nterms - 1].noise_weight = 0.3f;
+    RetexFootprint quarter = set->footprints[0];
+    test_must(retex_set_add_part(set, "axes", "RGBA", RETEX_HALF, 0, 0, &quarter.spread, &err), &err);
+    for (quarter.quadrant = 1; quarter.quadrant <= RETEX_QUADRANTS; quarter.quadrant++)
+        test_must(retex_set_add_footprint(set, &quarter, NULL, &err), &err);
     test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 0, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
@@ -199,6 +204,63 @@ static void expect_wrong_terms(RetexSet *set)
     for (size_t i = 0; i < sizeof wrong_parameters / sizeof *wrong_parameters; i++)
         if (retex_set_add_parameter(set, &wrong_parameters[i], NULL, &err) != RETEX_EINVAL)
             fail_msg("parameter %zu is taken", i);
+}
+
+/* Sets that were put together wrongly are not written. Each mixture has one mistake; the first has none. */
+static void wrong_mixtures_are_not_written(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = {0};
+    test_make_footprints(set);
+    const RetexMixture right = set->mixtures[0];
+    const int last = right.nshares - 1;
+    assert_true(last > 0);
+    for (int i = 0; i < 7; i++) {
+        RetexMixture *wrong = &set->mixtures[0];
+        *wrong = right;
+        if (i == 1)
+            wrong->shares[last].weight = -1;
+        if (i == 2)
+            wrong->shares[last].weight = set->nparts;
+        if (i == 3)
+            wrong->shares[last].footprint = -1;
+        if (i == 4)
+            wrong->shares[last].footprint = set->nfootprints;
+        if (i == 5)
+            wrong->nshares = 0;
+        if (i == 6)
+            wrong->nshares = RETEX_SHARES_MAX + 1;
+        if (retex_set_write(set, NULL, path, NULL, 0, &err) != (i ? RETEX_EINVAL : RETEX_OK))
+            fail_msg("mixture %d: %s", i, err.message);
+    }
+    set->mixtures[0] = right;
+    retex_set_close(&set);
+}
+
+/* Of a footprint and its finish, or of a gate; those that have no size are none. */
+static void images_of_finishes_are_found(void **state)
+{
+    (void)state;
+    static const RetexSampleFootprint images[] = {{0, 1, 0, 1}, {0, 2, 1, 1}, {0, 1, 0, 2}, {1, 1, 0, 1}, {1, 0, -1, -1}};
+    enum { OWN = 2, COUNT = sizeof images / sizeof *images };
+    RetexSamples *samples;
+    RetexError err = {0};
+    test_must(retex_samples_alloc(&samples, OWN, &err), &err);
+    samples->width = samples->height = 4;
+    for (int i = 0; i < COUNT; i++) {
+        test_must(retex_samples_add(samples, images[i], &err), &err);
+        test_must(retex_image_alloc(&samples->images[OWN + i], 4, 4, 3, &err), &err);
+    }
+    for (int i = 0; i < COUNT; i++)
+        assert_int_equal(
+            retex_samples_find(samples, images[i].target, images[i].footprint, images[i].finish), OWN + i);
+    assert_int_equal(retex_samples_find(samples, 1, 1, 1), -1);
+    assert_int_equal(retex_samples_find(samples, 0, 0, -1), -1); /* a footprint's colour is not among them */
+    assert_int_equal(retex_samples_find(samples, 0, -1, -1), -1);
+    retex_image_free(&samples->images[OWN]);
+    assert_int_equal(retex_samples_find(samples, 0, 0, 1), -1);
+    retex_samples_close(&samples);
 }
 
 /* Finishes are numbered from 1, and 0 is none, in targets as in parameters. */
@@ -456,6 +518,8 @@ int main(void)
         cmocka_unit_test(test_references_follow_when_parts_go),
         cmocka_unit_test(test_names_are_checked),
         cmocka_unit_test(finishes_are_numbered_from_1),
+        cmocka_unit_test(wrong_mixtures_are_not_written),
+        cmocka_unit_test(images_of_finishes_are_found),
         cmocka_unit_test(test_samples_of_another_set),
         cmocka_unit_test(test_stored_rows),
         cmocka_unit_test(test_description_there_and_back),

@@ -232,6 +232,8 @@ static const ManifestCase lies[] = {
     {"\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels"},
     {"\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type"},
     {"\"parts\"", "\"crc32\":\"", "\"crc32\":\"0", RETEX_EFORMAT, "checksum"},
+    {"\"parts\"", "\"crc32\":\"", "\"crc32\":\"+1234567\",\"x\":\"", RETEX_EFORMAT, "checksum"},
+    {"\"parts\"", "\"crc32\":\"", "\"crc32\":\"-1234567\",\"x\":\"", RETEX_EFORMAT, "checksum"},
     {"\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts"},
 };
 
