@@ -106,6 +106,7 @@ class Coverage:
         """Whether the test and all that it reaches are as they were."""
         record = self.tests.get(test)
         return record and record["digest"] == self.current(file_of(test)) and \
+            record.get("limit", SECONDS) >= SECONDS and \
             all(self.current(path) == old for path, (old, _) in record["files"].items())
 
     def measure(self, suites, may_reach):
@@ -117,13 +118,13 @@ class Coverage:
                 counts = os.path.abspath(os.path.join(self.build, "counts"))
                 shutil.rmtree(counts, ignore_errors=True)
                 passed, seconds = run_test(self.build, test, SECONDS, GCOV_PREFIX=counts)
-                if seconds >= SECONDS:
-                    print(f"# {test} is left out: it takes longer than {SECONDS:.0f} s", flush=True)
-                    continue
-                files = lines_of(counts, self.build)
+                is_long = seconds >= SECONDS
+                files = {} if is_long else lines_of(counts, self.build)
                 record = {"test": test, "digest": self.current(file_of(test)), "seconds": round(seconds, 2),
+                          **({"limit": SECONDS} if is_long else {}),  # that it reached
                           "files": {path: (self.current(path), lines) for path, lines in files.items()}}
-                print(f"# coverage of {test}: {seconds:.1f} s{'' if passed else ', fails'}", flush=True)
+                print(f"# {test} is left out: it takes longer than {SECONDS:.0f} s" if is_long else
+                      f"# coverage of {test}: {seconds:.1f} s{'' if passed else ', fails'}", flush=True)
                 self.tests[test] = record
                 self.sets.pop(test, None)
                 with open(self.kept, "a", encoding="utf-8") as file:
