@@ -226,7 +226,8 @@ static void lamps_are_left_out(void **state)
     (void)state;
     Fixture f;
     RetexError err;
-    RetexParameter lamp = {.name = "Sun", .kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 2, 3}, .kept = {1, 2, 3}};
+    RetexParameter lamp = {
+        .name = "Sun", .kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 2, 3}, .kept = {1, 2, 3}};
     int sun, correction;
     begin(&f);
     test_must(retex_set_add_parameter(f.set, &lamp, &sun, &err), &err);

@@ -242,7 +242,8 @@ static void wrong_mixtures_are_not_written(void **state)
 static void images_of_finishes_are_found(void **state)
 {
     (void)state;
-    static const RetexSampleFootprint images[] = {{0, 1, 0, 1}, {0, 2, 1, 1}, {0, 1, 0, 2}, {1, 1, 0, 1}, {1, 0, -1, -1}};
+    static const RetexSampleFootprint images[] = {
+        {0, 1, 0, 1}, {0, 2, 1, 1}, {0, 1, 0, 2}, {1, 1, 0, 1}, {1, 0, -1, -1}};
     enum { OWN = 2, COUNT = sizeof images / sizeof *images };
     RetexSamples *samples;
     RetexError err = {0};
