@@ -1,8 +1,10 @@
 /* Rooms that retex-pack wrote, drawn by the player's Renderer on webgl.mjs, and pictures to compare them with. All files are in
  * a folder of their own. */
 import { execFileSync } from "node:child_process";
+import { createHash } from "node:crypto";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
+import { resolve } from "node:path";
 import { inflateSync } from "node:zlib";
 import { player } from "./player.mjs";
 import { context, WebGLTexture } from "./webgl.mjs";
@@ -14,13 +16,18 @@ export const tool = (name, ...args) => run(name.startsWith("/") ? name : new URL
 export const write = (name, text) => writeFileSync(`${folder}/${name}`, text);
 process.on("exit", () => rmSync(folder, { recursive: true }));
 
-/* Pictures as images of a page: rows of red, green, blue and alpha. */
+/* Pictures as images of a page: rows of red, green, blue and alpha. A run of Python takes half a second: what has been read
+ * once is kept by its bytes. */
+const known = new Map();
 export function images(names) {
-  run("/usr/bin/python3", "-B", `${here}/pixels.py`, ...names.flatMap((name, i) => [name, `pixels-${i}`]));
-  return names.map((_, i) => {
+  const keys = names.map((name) => createHash("sha256").update(readFileSync(resolve(folder, name))).digest("hex")), unknown = [];
+  keys.forEach((key, i) => known.has(key) || unknown.push([key, names[i]]));
+  if (unknown.length) run("/usr/bin/python3", "-B", `${here}/pixels.py`, ...unknown.flatMap(([, name], i) => [name, `pixels-${i}`]));
+  unknown.forEach(([key], i) => {
     const data = readFileSync(`${folder}/pixels-${i}`);
-    return { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) };
+    known.set(key, { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) });
   });
+  return keys.map((key) => ({ ...known.get(key) }));
 }
 
 /* What isClear does with a canvas. */
