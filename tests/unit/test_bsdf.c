@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <stdio.h>
+#include <string.h>
 #include "lib_bsdf.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
@@ -170,6 +171,91 @@ static void glass_obeys_fresnel(void **state)
     Bsdf b = make(&c, 0.8, 0, 1);
     close_to(b.mirror.i.r, 1, 1e-6, "total internal reflection");
     close_to(b.passing.i.r, 0, 1e-6, "nothing passes");
+    c.finish.reflection_max = rgb_grey(0); /* also of glass that reflects nothing else */
+    b = make(&c, 0.8, 0, 1);
+    close_to(b.mirror.i.r, 1, 1e-6, "total internal reflection of clear glass");
+    b = make(&c, 0.7, 0, 1);
+    close_to(b.mirror.i.r, 0, 1e-6, "no reflection below the critical angle");
+}
+
+static double chances(const Bsdf *b)
+{
+    return (double)(b->p_diffuse + b->p_back + b->p_glossy + b->p_mirror + b->p_passing + b->p_subsurface +
+                    b->coating.coat.p + b->coating.sheen.p);
+}
+
+/* A surface that has all of POV-Ray's lobes. */
+static void case_of_all(Case *c)
+{
+    case_begin(c, 0);
+    c->finish.diffuse = 0.4, c->finish.diffuse_back = 0.2, c->finish.specular = 0.5;
+    c->finish.reflection_min = c->finish.reflection_max = rgb_grey(0.3f);
+}
+
+static void lobes_are_chosen_by_chances_of_one(void **state)
+{
+    (void)state;
+    Case c;
+    case_of_all(&c);
+    const Bsdf all = make(&c, 0.5, 0.1f, 0.3f);
+    assert_true(all.p_diffuse > 0 && all.p_back > 0 && all.p_mirror > 0 && all.p_passing > 0);
+    close_to(chances(&all), 1, 1e-6, "of all lobes");
+    /* what goes straight on is met once: the others are as likely among themselves as before */
+    Bsdf stopped = all;
+    bsdf_stop_passing(&stopped);
+    close_to(chances(&stopped), 1, 1e-6, "without passing");
+    close_to((double)(stopped.p_mirror / stopped.p_diffuse), (double)(all.p_mirror / all.p_diffuse), 1e-5, "mirror");
+    close_to((double)(stopped.p_back / stopped.p_diffuse), (double)(all.p_back / all.p_diffuse), 1e-5, "back");
+    close_to((double)stopped.p_passing, 0, 0, "passing");
+    assert_true(rgb_is_black(stopped.passing.d) && rgb_is_black(stopped.passing.i));
+    c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0); /* then highlights are met by paths too */
+    stopped = make(&c, 0.5, 0.1f, 0.3f);
+    const float glossy = stopped.p_glossy / stopped.p_diffuse;
+    assert_true(glossy > 0);
+    bsdf_stop_passing(&stopped);
+    close_to(chances(&stopped), 1, 1e-6, "with a highlight");
+    close_to((double)(stopped.p_glossy / stopped.p_diffuse), (double)glossy, 1e-5, "highlight");
+    c.finish = (Finish){.brilliance = 1};
+    Bsdf hole = make(&c, 0.5, 0, 1);
+    close_to((double)hole.p_passing, 1, 0, "a hole");
+    bsdf_stop_passing(&hole);
+    close_to(chances(&hole), 0, 0, "a hole without passing");
+    case_begin(&c, 0);
+    c.finish.retex.present = 1, c.finish.retex.metallic = 0.3, c.finish.retex.ior = 1.5, c.finish.retex.roughness = 0.4;
+    c.finish.retex.clearcoat = 0.8, c.finish.retex.sheen = rgb_grey(0.5f), c.finish.retex.sheen_roughness = 0.4;
+    Bsdf coated = make(&c, 0.5, 0, 0.2f);
+    assert_true(coated.coating.coat.p > 0 && coated.coating.sheen.p > 0 && coated.p_passing > 0);
+    close_to(chances(&coated), 1, 1e-6, "coated");
+    bsdf_stop_passing(&coated);
+    close_to(chances(&coated), 1, 1e-6, "coated, without passing");
+}
+
+static void a_normal_of_diffuse_lobes_is_theirs_alone(void **state)
+{
+    (void)state;
+    Case c;
+    float pdf;
+    const Vec3 tilted = direction(0.4, 2), to = direction(0.9, 1);
+    case_of_all(&c);
+    Bsdf b = make(&c, 0.5, 0, 0);
+    const Split before = bsdf_eval(&b, to, BSDF_LIGHT_SOURCE, &pdf);
+    bsdf_tilt_diffuse(&b, tilted);
+    const Split after = bsdf_eval(&b, to, BSDF_LIGHT_SOURCE, &pdf);
+    close_to((double)after.i.r, (double)before.i.r, 1e-7, "highlight");
+    assert_true(after.i.r > 0);
+    close_to((double)after.d.r, 0.4 / PI * vec_dot(to, tilted), 1e-6, "diffuse");
+    close_to((double)b.mirror.i.r + (double)b.mirror.d.r, 0.3, 1e-6, "mirror");
+    close_to(chances(&b), 1, 1e-6, "chances");
+    case_begin(&c, 0);
+    c.finish.diffuse = 0.6;
+    memset(&b, 0x7f, sizeof b); /* what a Lambertian surface leaves */
+    c.finish.lambert = finish_is_lambert(&c.finish);
+    assert_true(c.finish.lambert);
+    bsdf_setup(&b, &c.surface, direction(0.5, 0.3), 0, 0, 1);
+    bsdf_tilt_diffuse(&b, tilted);
+    const Split lambert = bsdf_eval(&b, to, BSDF_LIGHT_SOURCE, &pdf);
+    close_to((double)lambert.d.r, 0.6 / PI * vec_dot(to, tilted), 1e-6, "Lambertian");
+    assert_true(rgb_is_black(lambert.i));
 }
 
 static void refraction_bends_by_snell(void **state)
@@ -542,6 +628,8 @@ int main(void)
                                        cmocka_unit_test(sampling_matches_evaluation),
                                        cmocka_unit_test(energy_is_kept),
                                        cmocka_unit_test(glass_obeys_fresnel),
+                                       cmocka_unit_test(lobes_are_chosen_by_chances_of_one),
+                                       cmocka_unit_test(a_normal_of_diffuse_lobes_is_theirs_alone),
                                        cmocka_unit_test(refraction_bends_by_snell),
                                        cmocka_unit_test(cutouts_pass_straight),
                                        cmocka_unit_test(double_illuminate_lights_both_sides),
