@@ -104,6 +104,12 @@ static void lambert_is_exact(void **state)
     close_to(pdf, cos(0.5) / PI, 1e-6, "density");
     assert_true(rgb_is_black(f.i));
     close_to(sampled_albedo(&b, 4096), 0.6, 1e-4, "albedo");
+    c.finish.diffuse = 0; /* black: nothing is scattered, which has no direction and no density */
+    b = make(&c, 1.0, 0, 0);
+    BsdfSample s;
+    assert_true(b.lambert && b.p_diffuse + b.p_back <= 0);
+    for (float u = 0; u < 1; u += 0.25f)
+        assert_int_equal(bsdf_sample(&b, u, 0.3f, 0.6f, &s), 0);
 }
 
 static void sampling_matches_evaluation(void **state)
