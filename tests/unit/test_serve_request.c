@@ -165,6 +165,29 @@ static void test_textures(void **state)
         refuse_url(400, wrong[i]);
 }
 
+/* Whatever an edit names is a file that is served, and no other one. */
+static void test_names(void **state)
+{
+    (void)state;
+    static const char *const places[] = {
+        "/v1/room/Floor=%s/full.jpg",
+        "/v1/room/Floor=oak;Wall=%s/full.jpg",
+        "/v1/room/Floor=oak;Floor.finish=%s/full.jpg",
+        "/v1/room/over:Floor=%s/full.jpg",
+        "/v1/room/Floor=oak;over:Floor=ash;over2:Floor=%s/full.jpg",
+        "/v1/room/Floor=oak;Floor.width=1;Floor.tiles=%s/full.jpg",
+        "/v1/room/Floor=oak;Floor.width=1;Floor.tiles=ash,%s/full.jpg",
+    };
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        char url[256];
+        snprintf(url, sizeof url, places[i], "elm");
+        accept_url(url);
+        snprintf(url, sizeof url, places[i], "..elm");
+        refuse_url(400, url);
+        assert_non_null(strstr(request.reason, "`..elm` cannot be the name of a texture"));
+    }
+}
+
 /* Bytes that no file's name may get to see, in every place where a name can stand. */
 static void test_encodings(void **state)
 {
@@ -365,7 +388,8 @@ static void test_hints(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_routes), cmocka_unit_test(test_textures), cmocka_unit_test(test_encodings),
+        cmocka_unit_test(test_routes), cmocka_unit_test(test_names), cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_encodings),
         cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept), cmocka_unit_test(test_hints),
         cmocka_unit_test(test_sizes_are_bounded),
     };
