@@ -160,6 +160,11 @@ $ render --finish Floor=Shiny,matt -o x.exr
 $ render --finish Pane=matt,satin -o x.exr
 ! retex-render: error: --finish: light goes through target Pane: its finish cannot be chosen later
 = 2
+$ sed 's/^#declare Pane .*/#declare Pane = texture { pigment { rgb .9 } finish { retex { transmission .8 } } }/' room.pov \
++     >glass.pov
+$ retex-render -q --size 8x6 --spp 1 --finish Pane=matt,satin glass.pov -o x.exr
+! retex-render: error: --finish: light goes through target Pane: its finish cannot be chosen later
+= 2
 $ render --finish Floor=mat -o x.exr
 ! retex-render: error: no finish is called `mat`; is matt meant?; --list-finishes lists what there is
 = 2
