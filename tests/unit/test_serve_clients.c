@@ -177,6 +177,7 @@ static void test_slow_clients(void **state)
     for (int i = 0; i < COUNT; i++) {
         assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, pairs[i]), 0);
         each[i] = clients_add(clients, pairs[i][0]);
+        assert_int_equal(clients_count(clients), i + 1);
     }
     clients_set(clients, each[WAITS], CLIENT_WAITS);
     clients_set(clients, each[CRAWLS], CLIENT_UPLOADS);
@@ -205,6 +206,10 @@ static void test_slow_clients(void **state)
     assert_true(is_cut(pairs[FAST][1]) && !is_cut(pairs[SENDS][1]));
     clients_sweep(clients, began + 31, 30, 1000);
     assert_true(is_cut(pairs[SENDS][1]) && !is_cut(pairs[WAITS][1]));
+    assert_int_equal(clients_count(clients), COUNT); /* those that are cut are removed where they are noticed */
+    clients_remove(clients, each[ASKS]);
+    clients_remove(clients, each[SENDS]);
+    assert_int_equal(clients_count(clients), COUNT - 2);
     clients_close(clients);
     for (int i = 0; i < COUNT; i++)
         close(pairs[i][0]), close(pairs[i][1]);

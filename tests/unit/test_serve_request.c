@@ -198,7 +198,7 @@ static void test_encodings(void **state)
         "%4",           "a%",        "%4g",          "%g4",          "% 4",
         "a b",          "a\tb",      "a\xc3\xa4",    "%C3",          "%C3%28",
         "%A4",          "%FF",       "%C0%AF",       "%C0%AE%C0%AE", "%E0%80%AF",
-        "%F0%80%80%AF", "%ED%A0%80", "%F4%90%80%80", "%C2%85",       "%F8%88%80%80%80",
+        "%F0%80%80%AF", "%ED%A0%80", "%F4%90%80%80", "%C2%85",       "%F8%88%80%80%80", "%g0%9F%98%80",
     };
     static const char *const places[] = {"/v1/%s",
                                          "/v1/%s/full.jpg",
