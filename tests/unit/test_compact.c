@@ -181,6 +181,51 @@ static void corrections_move_no_footprints(void **state)
     retex_set_close(&set);
 }
 
+/* They are rounded to 8 RMS errors of what is kept, of the picture's mean, and left out below 45 dB or where nothing
+ * is left. */
+static void corrections_are_as_fine_as_what_is_kept(void **state)
+{
+    (void)state;
+    RetexSet *set = whole_set(1, 2);
+    RetexError err = {0};
+    RetexTerm term = test_term(set, 0, 2, (int[]){MIXTURE(0), MIXTURE(2)});
+    uint32_t seed = 6;
+    const double mean = 0.7;
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        set->parts[0].image.pixels[i] = i % 2 ? 1.5f * (float)mean : 0.5f * (float)mean;
+    test_must(retex_set_add_part(set, "correction", "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        set->parts[term.radiance].image.pixels[i] = (float)((test_random(&seed) - 0.5) * mean / 16);
+    test_must(retex_set_add_correction(set, &term, NULL, &err), &err);
+    for (int psnr = 44; psnr <= 80; psnr += 12) {
+        RetexCompactParams params = RETEX_COMPACT_INIT;
+        RetexSet *compact;
+        params.broad = 4, params.interreflection = 8, params.gain = 1, params.psnr = psnr;
+        test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
+        const double step = 8 * mean * pow(10, -psnr / 20.0), from = step / 2;
+        int found = 0;
+        double worst = 0, finest = HUGE_VAL;
+        for (int t = 0; t < compact->nterms; t++) {
+            if (compact->terms[t].role != RETEX_ROLE_CORRECTION)
+                continue;
+            const float *is = compact->parts[compact->terms[t].radiance].image.pixels;
+            const float *was = set->parts[term.radiance].image.pixels;
+            found++;
+            for (int i = 0; i < 3 * WIDE * HIGH; i++) {
+                worst = fmax(worst, fabs((double)is[i] - (double)was[i]));
+                finest = is[i] != 0 ? fmin(finest, fabs((double)is[i])) : finest;
+            }
+        }
+        assert_int_equal(found, psnr >= 45 && mean / 32 > from);
+        if (found) { /* the power of two at or below the step is taken */
+            assert_true(worst <= from && finest >= step / 2.01);
+            assert_true(worst > from / 4);
+        }
+        retex_set_close(&compact);
+    }
+    retex_set_close(&set);
+}
+
 static void one_cluster_needs_no_mixture(void **state)
 {
     RetexSet *set = whole_set(1, 1), *compact = compacted(set, 4, 8, 2);
@@ -407,6 +452,7 @@ int main(void)
         cmocka_unit_test(few_orders_tell_of_many),
         cmocka_unit_test(the_picture_is_no_term),
         cmocka_unit_test(corrections_move_no_footprints),
+        cmocka_unit_test(corrections_are_as_fine_as_what_is_kept),
         cmocka_unit_test(one_cluster_needs_no_mixture),
         cmocka_unit_test(empty_kinds_do_no_harm),
         cmocka_unit_test(sizes_follow_the_loss),
