@@ -233,6 +233,10 @@ test("the footprints of a room that retex-pack wrote are those that numpy reads"
     const expected = JSON.parse(run("/usr/bin/python3", "-B", `${here}/classes.py`, `${folder}/room`));
     same(expected.length, room.classes.length);
     player().checkManifest(room);
+    /* Light is loaded with the target that the name of its file has, or is of all of them. */
+    const targets = room.lights.map((light) => light.target), named = ({ file }) => room.targets.findIndex(({ name }) => file.includes(`_${name}_`));
+    same(targets, room.lights.map(named));
+    same([new Set(targets).size, Math.min(...targets)], [3, -1]);
     let base = 0;
     room.classes.forEach((info, k) => {
       const data = inflateSync(readFileSync(`${folder}/room/${info.file}`));
