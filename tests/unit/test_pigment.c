@@ -194,6 +194,33 @@ static void images_are_povray(void **state)
     retex_texture_close(&map.texture);
 }
 
+/* Each texel is found at its middle, whatever the sizes: quotients such as 15/49 times 49 are not whole. */
+static void texels_of_odd_images(void **state)
+{
+    (void)state;
+    for (int size = 3; size <= 61; size += 2) {
+        RetexImage image;
+        ImageMap map = {.width = size, .height = size, .map_type = MAP_PLANAR};
+        Pigment p = {.kind = PIGMENT_IMAGE, .transform = transform_identity(), .image = &map};
+        RetexError err;
+        assert_int_equal(retex_image_alloc(&image, size, size, 3, &err), 0);
+        for (int i = 0; i < size * size; i++) {
+            image.pixels[3 * i] = (float)(i % size) / 64;
+            image.pixels[3 * i + 1] = (float)(size - 1 - i / size) / 64; /* rows from below */
+        }
+        assert_int_equal(retex_texture_create(&map.texture, &image, NULL, 0, NULL), 0);
+        for (int i = 0; i < 2 * size; i++) { /* also between texels, in whose middle they are themselves */
+            map.interpolate = i < size ? 0 : 3;
+            const int x = i % size, y = size - 1 - x;
+            const Rgbft c = pigment_eval(&p, vec3((x + 0.5) / size, (y + 0.5) / size, 0), nowhere);
+            assert_near(c.r, x / 64.0);
+            assert_near(c.g, y / 64.0);
+        }
+        retex_texture_close(&map.texture);
+        retex_image_free(&image);
+    }
+}
+
 /* A warp changes where the image is read, and not the UV of a replacement. */
 static void warped_images(void **state)
 {
@@ -323,7 +350,7 @@ int main(void)
         cmocka_unit_test(checkers),
         cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(images_are_povray),
-        cmocka_unit_test(warped_images),
+        cmocka_unit_test(texels_of_odd_images), cmocka_unit_test(warped_images),
         cmocka_unit_test(projections),
         cmocka_unit_test(target_uvs),
         cmocka_unit_test(bakes),
