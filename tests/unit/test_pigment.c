@@ -209,8 +209,9 @@ static void texels_of_odd_images(void **state)
             image.pixels[3 * i + 1] = (float)(size - 1 - i / size) / 64; /* rows from below */
         }
         assert_int_equal(retex_texture_create(&map.texture, &image, NULL, 0, NULL), 0);
-        for (int i = 0; i < 2 * size; i++) { /* also between texels, in whose middle they are themselves */
-            map.interpolate = i < size ? 0 : 3;
+        for (int i = 0; i < 4 * size; i++) { /* also between texels, in whose middle they are themselves */
+            map.interpolate = (int[]){0, 2, 3, 4}[i / size];
+            map.has_alpha = map.interpolate > 0; /* then colours are weighed here */
             const int x = i % size, y = size - 1 - x;
             const Rgbft c = pigment_eval(&p, vec3((x + 0.5) / size, (y + 0.5) / size, 0), nowhere);
             assert_near(c.r, x / 64.0);
