@@ -127,7 +127,7 @@ check-branches:
 	$(MAKE) BUILD=$(BUILD)/branches/plain CFLAGS='-O1 -g -save-temps=obj' CXXFLAGS='-O1 -g' all unit-tests test-programs && \
 	$(CC) -O1 -fPIC -c tests/branches/covered.c -o $(BUILD)/branches/covered.o && \
 	$(MAKE) BUILD=$(BUILD)/branches/covered CFLAGS='-O1 -g --coverage' CXXFLAGS='-O1 -g' \
-	    LDFLAGS='--coverage -Wl,--wrap=_exit $(abspath $(BUILD))/branches/covered.o' \
+	    LDFLAGS='--coverage -Wl,--wrap=_exit,--wrap=confine_to_folder $(abspath $(BUILD))/branches/covered.o' \
 	    CPPFLAGS=-D__SANITIZE_ADDRESS__ all unit-tests test-programs # the decoder must be free to write what it counted
 	@BUILD=$(BUILD) tests/branches/run.py $(AREA)
 check-faults: tests

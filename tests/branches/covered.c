@@ -9,3 +9,12 @@ _Noreturn void __wrap__exit(int status)
     __gcov_dump();
     __real__exit(status);
 }
+
+/* What it counted is written outside of the folder to which a child confines itself. */
+int __wrap_confine_to_folder(const char *folder);
+
+int __wrap_confine_to_folder(const char *folder)
+{
+    (void)folder;
+    return 1;
+}
