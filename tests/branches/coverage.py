@@ -121,7 +121,7 @@ class Coverage:
                 is_long = seconds >= SECONDS
                 files = {} if is_long else lines_of(counts, self.build)
                 record = {"test": test, "digest": self.current(file_of(test)), "seconds": round(seconds, 2),
-                          **({"limit": SECONDS} if is_long else {}),  # that it reached
+                          **({"limit": SECONDS} if is_long else {}),  # tried again only with a longer one
                           "files": {path: (self.current(path), lines) for path, lines in files.items()}}
                 print(f"# {test} is left out: it takes longer than {SECONDS:.0f} s" if is_long else
                       f"# coverage of {test}: {seconds:.1f} s{'' if passed else ', fails'}", flush=True)

@@ -389,9 +389,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_routes), cmocka_unit_test(test_names), cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_encodings),
-        cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept), cmocka_unit_test(test_hints),
-        cmocka_unit_test(test_sizes_are_bounded),
+        cmocka_unit_test(test_encodings), cmocka_unit_test(test_pictures), cmocka_unit_test(test_accept),
+        cmocka_unit_test(test_hints), cmocka_unit_test(test_sizes_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 /* The player's element in a page without a browser: jsdom, which has the elements, their selectors, events and focus, but
  * lays nothing out. Where things lie is given; the renderer keeps what it is asked to draw. */
-import { createRequire } from "node:module";
-import Module from "node:module";
+import Module, { createRequire } from "node:module";
 import { player } from "./player.mjs";
 
 process.env.NODE_PATH = "/usr/share/nodejs"; // where Debian's packages lie, which other builds of Node do not know
@@ -15,7 +14,7 @@ const lying = (element, box) => (element.getBoundingClientRect = () => box);
  * 78 by 50, ten of the page's each; `seen` has the target of a pixel, -1 for none. */
 export function page(room, { seen = () => 0, canEdit = () => true, given = {} } = {}) {
   const { window } = new JSDOM("<body></body>", { url: "https://x.org/p#other=1", pretendToBeVisual: true });
-  const { document } = window, { RetexRoom, Renderer, finishesAsRendered, plainTexture } = player({
+  const { document } = window, { finishesAsRendered, plainTexture } = player({
     globalThis: window, document, location: window.location, history: window.history, customElements: window.customElements, CustomEvent: window.CustomEvent, Blob: window.Blob,
     addEventListener: window.addEventListener.bind(window), removeEventListener: window.removeEventListener.bind(window), devicePixelRatio: 1,
     requestAnimationFrame: window.requestAnimationFrame.bind(window), cancelAnimationFrame: window.cancelAnimationFrame.bind(window),
@@ -41,5 +40,5 @@ export function page(room, { seen = () => 0, canEdit = () => true, given = {} } 
     for (const [key, value] of Object.entries(has)) if (event[key] !== value) Object.defineProperty(event, key, { value });
     return !(typeof to === "string" ? $(to) : to).dispatchEvent(event);
   };
-  return { window, document, element, $, $$: (selector) => [...element.shadowRoot.querySelectorAll(selector)], drawn, send, Renderer };
+  return { window, element, $, $$: (selector) => [...element.shadowRoot.querySelectorAll(selector)], drawn, send };
 }

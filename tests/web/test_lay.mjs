@@ -35,7 +35,7 @@ for (const repeat of BONDS)
       const texel = isTurned ? [0, 1].map(() => (width[short] + grout) / (block[short] + joint[short])) : width.map((w, i) => (w + grout) / (block[i] + joint[i]));
       near(period.map((p, i) => p * width[i]), size.map((s, i) => s * texel[i]), 1e-9, what);
       near(layout.grout, texel.map((t) => grout / t), 1e-9, what);
-      near([Math.min(...joint) > 0, isTurned || joint.every((j, i) => j === 0 || j < grout / (width[i] / image[i]) + 1)], [grout > 0, true].map(Number), 0, what);
+      same([Math.min(...joint) > 0, isTurned || joint.every((j, i) => j === 0 || j < grout / (width[i] / image[i]) + 1)], [grout > 0, true], what);
       if (!isTurned) same(block, image, what);
     }
   });

@@ -31,15 +31,13 @@ test("rooms are made", () => {
   }
 });
 
-const sources = ["wood.png", "stone.png", "square.png", "logo.png"], read = images(sources), picture = (name) => read[sources.indexOf(name)];
-
 /* Edits as in links: the page gets what parseEdit makes of them, the tools options. */
 const { parseEdit, readColor } = player();
 function edits(text) {
   const textures = {}, args = [];
   for (const [name, said] of Object.entries(parseEdit(text).textures)) {
     const { source, tiles = "", ...options } = said, color = readColor(source), layer = /^over/.test(name);
-    textures[name] = { ...options, tiles, tileImages: tiles ? tiles.split(",").map(picture) : [], image: color || picture(source) };
+    textures[name] = { ...options, tiles, tileImages: tiles ? images(tiles.split(",")) : [], image: color || images([source])[0] };
     const words = text.split(";").filter((part) => part.startsWith(`${name}.`)).map((part) => part.slice(name.length + 1));
     args.push(["--texture", ...(layer ? ["over"] : []), ...words].join(":"), `${name.replace(/^over\d?:/, "")}=${source}`);
   }
