@@ -357,10 +357,10 @@ changed('longs.gltf', scene, 'accessors', 1, componentType=5125)
 
 def morphed(of_nodes):
     """The card at the weights -0.5 and 0.25 of two morph targets, which move its vertices and normals."""
-    scene, moves = gltf(MATERIAL), ((.5, -1, 2), (3, 1, -4))
+    scene, moves = gltf(MATERIAL), ((.5, -1, 2), (3, 1, -5))
     vectors = [[(x + .5 * moves[0][k] - .25 * moves[1][k]) for k, x in enumerate(p)] for p in positions]
-    vectors += [(0, .5, .5)] * 4
-    for move, turn in zip(moves, ((0, .5, -.5), (0, -1, 1))):
+    vectors += [(0, .75, .25)] * 4
+    for move, turn in zip(moves, ((0, .5, -.5), (0, -2, 2))):
         vectors += [move] * 4 + [turn] * 4
     data = buffer + b''.join(struct.pack('<3f', *v) for v in vectors)
     for k in range(6):

@@ -98,3 +98,14 @@ with_materials('without', [
     {'extensions': {'KHR_materials_sheen': {}, 'EXT_materials_\x1bfur': {}}}])
 with_materials('without_many', [{'name': 'pan %d' % i, 'extensions': {
     'KHR_materials_anisotropy': {'anisotropyStrength': 1}}} for i in range(20)])
+
+# More extensions than are told, behind as many that are taken; and glass that absorbs light.
+scene = gltf({'name': 'wood'})
+scene['extensionsUsed'] = ['KHR_materials_ior'] * 20 + ['EXT_unknown_%d' % i for i in range(18)]
+write('extensions.gltf', json.dumps(scene))
+scene = gltf({})
+scene['materials'] = [{'name': 'glass', 'pbrMetallicRoughness': {'metallicFactor': 0, 'roughnessFactor': 0}, 'extensions': {
+    'KHR_materials_transmission': {'transmissionFactor': 1}, 'KHR_materials_ior': {'ior': 1.5},
+    'KHR_materials_volume': {'thicknessFactor': 1, 'attenuationDistance': 2, 'attenuationColor': [.25, .5, 1]}}}]
+scene['extensionsUsed'] = list(scene['materials'][0]['extensions'])
+write('absorbs.gltf', json.dumps(scene))

@@ -68,3 +68,14 @@ $ retex-import -q without_many.gltf -o many 2>&1 | tail -n 3
 > retex-import: warning: the material `pan 15`: its anisotropy is left out
 > retex-import: warning: the like is left out 4 more times
 > retex-import: warning: the extension EXT_mesh_features is left out
+$ retex-import -q extensions.gltf -o extensions 2>&1 | tail -n 2
+> retex-import: warning: the extension EXT_unknown_15 is left out
+> retex-import: warning: the like is left out 2 more times
+
+# Light of the attenuation's colour is what is left behind its distance, here 2: exp((fade_color - 1) 2 / fade_distance).
+$ retex-import -q absorbs.gltf -o absorbs
+$ grep -o 'fade_power.*>' absorbs/absorbs.pov | tr -d '<>,' |
++     awk '{ for (k = 0; k < 3; k++) printf "%.3f\n", exp(($(7 + k) - 1) * 2 / $4) }'
+> 0.250
+> 0.500
+> 1.000

@@ -24,11 +24,10 @@ size_t __sanitizer_get_current_allocated_bytes(void); /* gcc has no header of it
 const char *__asan_default_options(void);
 const char *__ubsan_default_options(void);
 
-/* What cannot be had is NULL, as on a machine with less memory; but operator new of libraries would end the program
- * instead of throwing. So it gets what the length of an attribute of OpenEXR, an int, can ask for. */
+/* What cannot be had is NULL, as on a machine with less memory. */
 const char *__asan_default_options(void)
 {
-    return "allocator_may_return_null=1:max_allocation_size_mb=2048:quarantine_size_mb=16:malloc_context_size=12";
+    return "allocator_may_return_null=1:max_allocation_size_mb=1024:quarantine_size_mb=16:malloc_context_size=12";
 }
 
 const char *__ubsan_default_options(void)

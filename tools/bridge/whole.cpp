@@ -41,6 +41,27 @@ class Reader
         }
         return value;
     }
+    // A little-endian number; -1 if the file ends before it.
+    int64_t little(int bytes)
+    {
+        int64_t value = 0;
+        for (int i = 0; i < bytes; i++) {
+            int next = byte();
+            if (next < 0)
+                return -1;
+            value |= int64_t(next) << 8 * i;
+        }
+        return value;
+    }
+    // The length of a text that ends with 0; -1 if the file ends before it.
+    int64_t text()
+    {
+        int64_t length = 0;
+        for (int next; (next = byte()) != 0; length++)
+            if (next < 0)
+                return -1;
+        return length;
+    }
     bool skip(int64_t bytes)
     {
         while (bytes-- > 0)
@@ -94,6 +115,29 @@ bool has_all_segments(Reader &in)
     }
 }
 
+// Whether an OpenEXR file has all attributes of its headers: OpenEXR makes room for them before it reads them. A header
+// is names, each with a type and a length, to an empty name; of several parts the last header is empty.
+bool has_all_attributes(Reader &in)
+{
+    enum { Magic = 4, SeveralParts = 0x1000 };
+    in.skip(Magic);
+    const int64_t version = in.little(4);
+    for (int attributes = 0; version >= 0;) {
+        const int64_t name = in.text();
+        if (name == 0 && (attributes == 0 || !(version & SeveralParts)))
+            return true;
+        attributes = name > 0 ? attributes + 1 : 0;
+        if (name == 0)
+            continue;
+        if (name < 0 || in.text() < 0)
+            return false;
+        const int64_t length = in.little(4);
+        if (length < 0 || length > INT32_MAX || !in.skip(length))
+            return false;
+    }
+    return false;
+}
+
 } // namespace
 
 std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file)
@@ -123,7 +167,7 @@ const char *format_by_content(const RetexBridgeFile &file)
                  {"tiff", {"II*\0", 4}},       {"tiff", {"MM\0*", 4}},   {"tiff", {"II+\0", 4}},
                  {"tiff", {"MM\0+", 4}},       {"dpx", "SDPX"},          {"dpx", "XPDS"},
                  {"ico", {"\0\0\1\0", 4}},     {"zfile", "\x1f\x8b\b"},  {"zfile", "\xab\x67\b\x2f"},
-                 {"zfile", "\x2f\b\x67\xab"}};
+                 {"zfile", "\x2f\b\x67\xab"}, {"openexr", "\x76\x2f\x31\x01"}};
     auto stream = open_file(file);
     std::string begin(16, '\0');
     begin.resize(std::fread(&begin[0], 1, begin.size(), stream.get()));
@@ -145,6 +189,8 @@ std::string find_damage(const RetexBridgeHost *host, const RetexBridgeFile &file
         in.skip(2);
         return has_all_segments(in) ? "" : "the file is truncated";
     }
+    if (format == "openexr")
+        return has_all_attributes(in) ? "" : "its header is damaged or truncated";
     if (format == "png") {
         const Bytes bytes = in.all();
         host->png_is_damaged(bytes.data(), bytes.size(), file.max_pixels, damage);

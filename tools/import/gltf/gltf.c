@@ -137,10 +137,18 @@ static const char *left_of_material(const char *extension, const json_t *json, c
     return plain;
 }
 
+enum { MOST_LINES = 16 }; /* of a kind */
+
+static void tell_rest(const Import *import, int lines)
+{
+    if (lines > MOST_LINES)
+        import_tell(import, IMPORT_WARNING, "the like is left out %d more time%s", lines - MOST_LINES,
+                    lines == MOST_LINES + 1 ? "" : "s");
+}
+
 /* A line for each material and what it does without. `told` gets the names of the extensions. */
 static void note_materials(Import *import, const json_t *json, json_t *told)
 {
-    enum { MOST = 16 };
     const json_t *materials = json_object_get(json, "materials");
     int lines = 0;
     for (size_t i = 0; i < json_array_size(materials); i++) {
@@ -151,30 +159,30 @@ static void note_materials(Import *import, const json_t *json, json_t *told)
             char name[NAME_SIZE], plain[NAME_SIZE];
             const char *what = left_of_material(extension, own, plain);
             json_object_set_new(told, extension, json_true());
-            if (what && lines++ < MOST)
+            if (what && lines++ < MOST_LINES)
                 import_tell(import, IMPORT_WARNING, "the material `%s`: its %s is left out",
                             gltf_material_name(json, i, name), what);
         }
     }
-    if (lines > MOST)
-        import_tell(import, IMPORT_WARNING, "the like is left out %d more time%s", lines - MOST,
-                    lines == MOST + 1 ? "" : "s");
+    tell_rest(import, lines);
 }
 
 /* A line for each that changes what a picture shows and is not taken. */
 static void note_extensions(Import *import, const json_t *json, const json_t *told)
 {
-    enum { MOST = 16 };
     const json_t *used = json_object_get(json, "extensionsUsed");
-    for (size_t i = 0; i < json_array_size(used) && i < MOST; i++) {
+    int lines = 0;
+    for (size_t i = 0; i < json_array_size(used); i++) {
         const char *name = json_string_value(json_array_get(used, i));
         char plain[NAME_SIZE];
         size_t k = 0;
         while (name && k < OF_MATERIALS && strcmp(name, of_materials[k].extension) != 0)
             k++;
-        if (name && k == OF_MATERIALS && !is_taken(name) && !json_object_get(told, name))
+        if (name && k == OF_MATERIALS && !is_taken(name) && !json_object_get(told, name) &&
+            lines++ < MOST_LINES)
             import_tell(import, IMPORT_WARNING, "the extension %s is left out", import_plain(name, plain));
     }
+    tell_rest(import, lines);
 }
 
 static GltfText load_model(const Import *import)
