@@ -83,11 +83,71 @@ static void small_suns_are_found(void **unused)
     }
 }
 
+/* A sun between 24 times the mean, from where on all cells are looked at, and the most that colours of an average with
+ * a share below 0 are: as small, and found, whatever makes the mean. */
+static void dim_suns_are_found(void **unused)
+{
+    static const struct {
+        const char *rest, *sun;
+        double most; /* luminance of the sun */
+    } skies[] = {{"pigment{gradient y color_map{[.5 rgb 1][.5 rgb 0]} scale 2 translate -y}", "rgb 14.4", 14.4},
+                 {"pigment{gradient y color_map{[.5 rgb 0][.5 rgb 1]} scale 2 translate -y}", "rgb 14.4", 14.4},
+                 {"pigment{gradient y pigment_map{[0 average pigment_map{[-1 rgb .3][2 rgb .3]}][1 rgb .3]}}",
+                  "average pigment_map{[-1 rgb 0][2 rgb 6]}", 12}};
+    (void)unused;
+    for (int n = 0; n < 3 * 16; n++) {
+        const int x = 333 + n % 4, y = 400 + n / 4 % 4 - 300 * (n < 16), at = (x + 2 * y) & 3;
+        const double theta = PI * (y + 0.25 + 0.5 * (at >> 1)) / SKY_TABLE_HEIGHT,
+                     phi = 2 * PI * (x + 0.25 + 0.5 * (at & 1)) / SKY_TABLE_WIDTH, cell = PI / SKY_TABLE_HEIGHT;
+        const double size = 1 - 0.01 * sin(theta) * cell * cell / (2 * PI), most = skies[n / 16].most;
+        const Vec3 d = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+        char text[1024];
+        SkyTable *table;
+        RetexError err = {0};
+        snprintf(text, sizeof text,
+                 V37 "sky_sphere{%s pigment{gradient y pigment_map{[%.15f rgbt 1][%.15f %s]} scale 2 translate -y"
+                     " rotate %.15f*z rotate %.15f*y}}",
+                 skies[n / 16].rest, (size + 1) / 2, (size + 1) / 2, skies[n / 16].sun, -theta * 180 / PI,
+                 -phi * 180 / PI);
+        Scene *scene = parse(text);
+        assert_true(fabs((double)rgb_luminance(sky_radiance(scene, d, 0)) - most) < 1e-3 * most);
+        test_must(sky_table_of(&table, scene, 0, &err), &err);
+        const double there = (double)sky_table_pdf(table, d), wanted = most / (4 * PI * (double)sky_table_mean(table));
+        if (fabs(there / wanted - 1) > 1e-3)
+            fail_msg("sun %d: density %g, not %g", n, there, wanted);
+        sky_table_close(&table);
+        scene_close(&scene);
+    }
+}
+
+/* Whatever is bright of a sky: all of it, a half of it, and one cell. */
+static void skies_shine(void **unused)
+{
+    static const struct {
+        const char *pigment;
+        int shines;
+    } skies[] = {{"gradient y color_map{[0 rgb 0][1 rgb 1]}", 1},
+                 {"gradient y color_map{[.999 rgb 0][.999 rgb 1]}", 1},
+                 {"gradient x color_map{[.999 rgb 0][.999 rgb 1]}", 1},
+                 {"gradient y color_map{[0 rgb 0][1 rgb 0]}", 0},
+                 {"bozo color_map{[0 rgb 0][1 rgb 0]}", 0}};
+    (void)unused;
+    for (size_t i = 0; i < sizeof skies / sizeof *skies; i++) {
+        char text[256];
+        snprintf(text, sizeof text, V37 "sky_sphere{pigment{%s}}", skies[i].pigment);
+        Scene *scene = parse(text);
+        assert_int_equal(sky_shines(scene), skies[i].shines);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(densities_are_those_of_luminance),
         cmocka_unit_test(small_suns_are_found),
+        cmocka_unit_test(dim_suns_are_found),
+        cmocka_unit_test(skies_shine),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

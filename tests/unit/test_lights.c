@@ -130,6 +130,111 @@ static void tree_of_one_place(void **state)
     light_tree_close(&tree);
 }
 
+/* Weight of a light at a point by angles, which the tree has by cosines (Conty Estevez and Kulla, section 2). Negative
+ * where an angle is close to a limit of the tree, which has slack. */
+static double weight_by_angles(const LightBounds *l, const LightSampleContext *p)
+{
+    const Vec3 to = vec_sub(vec_scale(vec_add(l->low, l->high), 0.5), p->position);
+    const double radius = vec_length(vec_sub(l->high, l->low)) / 2, d = vec_length(to);
+    const double seen = d > radius * 1.0001 ? asin(radius * 1.0001 / d) : PI;
+    double from_axis = acos(-vec_dot(to, l->axis) / d), shines, lit = 1;
+    if (l->back_share == 1)
+        from_axis = fmin(from_axis, PI - from_axis);
+    from_axis = fmax(0, from_axis - l->theta_o - seen);
+    shines = from_axis < l->theta_e ? cos(from_axis) : 0;
+    if (fabs(cos(from_axis) - cos(l->theta_e)) < 0.02 || fabs(cos(from_axis)) < 0.02)
+        return -1;
+    if (l->back_share < 1)
+        shines = fmax(shines, l->back_share);
+    if (vec_dot(p->normal, p->normal) > 0) {
+        const double from_normal = fmax(0, acos(vec_dot(to, p->normal) / d) - seen);
+        if (fabs(cos(from_normal)) < 0.02)
+            return -1;
+        lit = fmax(0, cos(from_normal));
+    }
+    return shines * lit * (l->constant + l->intensity / (d * d + radius * radius + l->intensity / l->peak));
+}
+
+/* Of two lights each is chosen by its weight; the estimate of one alone is its weight. */
+static void tree_weighs_by_angles(void **state)
+{
+    (void)state;
+    int compared = 0, cones = 0;
+    for (int n = 0; n < 20000; n++) {
+        LightBounds lights[2];
+        LightTree *tree;
+        double weights[2];
+        const LightSampleContext p = random_lit(n);
+        for (int k = 0; k < 2; k++) {
+            lights[k] = random_light((n / 2 + k * (n % 5 + 1)) % 6);
+            lights[k].high = vec_add(lights[k].low, vec_scale(vec3(1, 1, 1), random_between(0.1, 2)));
+            lights[k].peak = fmax(lights[k].peak, 1);
+            if (n % 3 && lights[k].theta_o == 0)
+                lights[k].theta_o = random_between(0.1, 1.5), cones++;
+            weights[k] = weight_by_angles(&lights[k], &p);
+        }
+        if (!(fmin(weights[0], weights[1]) >= 0 && weights[0] + weights[1] > 1e-3))
+            continue;
+        compared++;
+        assert_int_equal(light_tree_create(&tree, lights, 2, NULL), 0);
+        const double wanted = weights[0] / (weights[0] + weights[1]);
+        const double found = (double)light_tree_probability(tree, &p, 0);
+        if (fabs(found - wanted) > 1e-3)
+            fail_msg("pair %d: a light is chosen by %.5f, should be by %.5f", n, found, wanted);
+        light_tree_close(&tree);
+        assert_int_equal(light_tree_create(&tree, lights, 1, NULL), 0);
+        const double estimate = (double)light_tree_estimate(tree, &p);
+        if (fabs(estimate - weights[0]) > 1e-3 * (weights[0] + 0.01))
+            fail_msg("light %d: estimated %.5f, should be %.5f", n, estimate, weights[0]);
+        light_tree_close(&tree);
+    }
+    printf("# %d pairs, %d cones\n", compared, cones);
+    assert_true(compared > 5000 && cones > 5000);
+}
+
+/* How far the choice is from the best one, which is by each light's weight: the mean square of what one sample gives,
+ * over the square of the mean, less 1. Walls of small faces, that one would cut by place and by direction, in a thin
+ * box. */
+static double variance_of_choice(int points)
+{
+    enum { N = 480 };
+    static LightBounds lights[N];
+    LightTree *tree;
+    double sum = 0;
+    for (int k = 0; k < N; k++) {
+        const int wall = k % 4;
+        const double u = random_between(-4, 4), v = random_between(0, 1);
+        const Vec3 at = wall < 2 ? vec3(u, v, wall ? 4 : -4) : vec3(wall == 2 ? -4 : 4, v, u);
+        const Vec3 axis = wall < 2 ? vec3(0, 0, wall ? -1 : 1) : vec3(wall == 2 ? 1 : -1, 0, 0);
+        lights[k] = (LightBounds){.low = at, .high = vec_add(at, vec3(0.01, 0.01, 0.01)), .axis = axis};
+        lights[k].theta_e = PI / 2, lights[k].intensity = k % 7 ? 0.01 : 1, lights[k].peak = 100;
+    }
+    assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
+    for (int n = 0; n < points; n++) {
+        LightSampleContext p = {.position = vec3(random_between(-3.5, 3.5), random_between(0, 1), 0)};
+        p.position.z = random_between(-3.5, 3.5);
+        if (n % 2)
+            p.normal = random_direction();
+        double whole = 0, square = 0;
+        for (int k = 0; k < N; k++) {
+            const double weight = fmax(0, weight_by_angles(&lights[k], &p));
+            whole += weight;
+            square += weight > 0 ? weight * weight / (double)light_tree_probability(tree, &p, k) : 0;
+        }
+        sum += whole > 0 ? square / (whole * whole) - 1 : 0;
+    }
+    light_tree_close(&tree);
+    return sum / points;
+}
+
+static void tree_is_near_the_best_choice(void **state)
+{
+    (void)state;
+    const double variance = variance_of_choice(4000);
+    printf("# variance %.4f\n", variance);
+    assert_true(variance < 0.42);
+}
+
 /* ---- whole scenes ---- */
 
 #define HEAD                                                                                                           \
@@ -465,6 +570,82 @@ static void only_lights_of_the_group_are_chosen(void **state)
     }
 }
 
+/* Of many lights far away each is chosen by the irradiance that it gives: a sphere that of its disc, a flat shape and
+ * the faces of a mesh that of their area. */
+static void far_lights_are_chosen_by_irradiance(void **state)
+{
+    (void)state;
+    Scene *scene = test_scene(HEAD "#for(I,0,4) sphere { <I*40 - 80, 900, 0>, 1 + I/2 texture { Shine } }"
+                                   "disc { <I*40 - 80, 1000, 200>, y, 1.5 + I/2 texture { Shine } } #end "
+                                   "mesh { #for(I,0,19) triangle { <9*I, 800, 99>, <9*I + 4, 800, 99>, <9*I, 801, 96> }"
+                                   "#end texture { Shine } }");
+    const LightSampleContext p = {.position = vec3(0, 0, 0)};
+    Lights *lights;
+    double wanted[30], found[30], sum = 0;
+    const double face = 0.5 * 4 * sqrt(10);
+    int count = 0;
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
+    for (int k = 0; k < 30; k++) {
+        const double x = k < 10 ? k / 2 * 40 - 80 : 9 * (k - 10) + 4 / 3.0,
+                     r = k % 2 ? 1.5 + k / 2 / 2.0 : 1 + k / 2 / 2.0;
+        const Vec3 at = k >= 10 ? vec3(x, 800 + 1 / 3.0, 98) : k % 2 ? vec3(x, 1000, 200) : vec3(x, 900, 0);
+        const Vec3 normal = k < 10 ? vec3(0, 1, 0) : vec_normalize(vec3(0, 3, 1));
+        const double d = vec_length(at), cosine = k < 10 && k % 2 == 0 ? 1 : fabs(vec_dot(normal, at)) / d;
+        wanted[k] = (k < 10 ? PI * r * r : face) * cosine / (d * d), sum += wanted[k], found[k] = 0;
+    }
+    for (int i = 0; i < 20000; i++) {
+        const LightPick pick = lights_pick(lights, &p, (float)(i + 0.5) / 20000, 0.5f);
+        found[pick.entry < 10 ? pick.entry : 10 + pick.face] = (double)pick.probability;
+    }
+    for (int k = 0; k < 30; k++) {
+        count += found[k] > 0;
+        if (fabs(found[k] - wanted[k] / sum) > 0.03 * wanted[k] / sum)
+            fail_msg("light %d is chosen by %.5f, should be by %.5f", k, found[k], wanted[k] / sum);
+    }
+    assert_int_equal(count, 30);
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
+/* Shares of few lights may add up to less than the largest random number: then the last one that shines is chosen. */
+static void largest_number_chooses_a_light(void **state)
+{
+    (void)state;
+    Scene *scene =
+        test_scene(HEAD "#for(I,1,20) light_source { <I,2,mod(7*I,20)>, I fade_distance 1 fade_power 2 } #end "
+                        "light_group { light_source { 9, 1 } sphere { 1, .1 } }");
+    Lights *lights;
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
+    for (int k = 0; k < 4000; k++) {
+        const LightSampleContext p = random_lit(k);
+        const LightPick pick = lights_pick(lights, &p, 1 - 0x1p-24f, 0.5f);
+        assert_true(pick.entry >= 0 && pick.entry < 20 && pick.probability < 1);
+    }
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
+/* Faces of a mesh that do not shine are never sampled: hitting them has no density. */
+static void dark_faces_have_no_density(void **state)
+{
+    (void)state;
+    Scene *scene = test_scene(HEAD "mesh { #for(I,0,19) triangle { <I,0,0>, <I+1,0,0>, <I,0,1>"
+                                   "#if (mod(I, 3)) texture { Shine } #else texture { Dark } #end } #end }");
+    const LightSampleContext from = {.position = vec3(9, 5, 0)};
+    Lights *lights;
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
+    for (int k = 0; k < 20; k++) {
+        const Surface s = {.primitive = &scene->primitives[0],
+                           .face = k,
+                           .position = vec3(k + 0.3, 0, 0.3),
+                           .geometric_normal = vec3(0, 1, 0)};
+        const float pdf = lights_emitter_pdf(lights, &from, 0, &s);
+        assert_true(k % 3 ? pdf > 0 : pdf == 0);
+    }
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
 /* Directions of the sky are sampled by its luminance; whatever is looked at less closely, the densities add up to 1. */
 static void skies_are_sampled_by_luminance(void **state)
 {
@@ -508,8 +689,13 @@ int main(void)
         cmocka_unit_test(tree_probabilities),
         cmocka_unit_test(tree_frequencies),
         cmocka_unit_test(tree_of_one_place),
+        cmocka_unit_test(tree_weighs_by_angles),
+        cmocka_unit_test(tree_is_near_the_best_choice),
         cmocka_unit_test(domes_are_left_to_paths),
         cmocka_unit_test(only_lights_of_the_group_are_chosen),
+        cmocka_unit_test(far_lights_are_chosen_by_irradiance),
+        cmocka_unit_test(largest_number_chooses_a_light),
+        cmocka_unit_test(dark_faces_have_no_density),
         cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(picks_are_as_often_as_told),

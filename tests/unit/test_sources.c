@@ -91,6 +91,52 @@ static void lit_parts_are_where_they_shine(void **state)
     }
 }
 
+/* On a ray no place has more than the most, and one has as much. */
+static void most_is_the_largest(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 500; k++) {
+        Light light = {.ops = &light_point, .location = random_point(3), .color = {1, 0.5f, 0.25f}};
+        if (k % 4)
+            light.fade_power = 1 + k % 3, light.fade_distance = random_between(0.2, 3);
+        const Ray ray = {.origin = random_point(5), .direction = random_direction(), .tmin = 0.5};
+        const double length = 6, most = (double)source_most_irradiance(&light, &ray, length);
+        double largest = 0;
+        for (int n = 0; n <= 2000; n++) {
+            const Vec3 at = vec_mad(ray.origin, ray.direction, ray.tmin + n * length / 2000);
+            Vec3 direction;
+            double distance;
+            const Rgb rgb = source_irradiance(&light, at, light.location, &direction, &distance);
+            largest = fmax(largest, (double)rgb_luminance(rgb));
+        }
+        if (!(largest <= most * 1.00001 && largest > 0.99 * most))
+            fail_msg("light %d: the most is %g, not %g", k, most, largest);
+    }
+}
+
+/* A sphere is met by rays that go through it, from outside, ahead. */
+static void spheres_are_met_ahead(void **state)
+{
+    (void)state;
+    int met = 0;
+    for (int k = 0; k < 20000; k++) {
+        const Light light = {.ops = &light_point, .location = random_point(1), .color = rgb_grey(1), .size = 0.5};
+        const Ray ray = {.origin = random_point(1), .direction = random_direction()};
+        const Vec3 to = vec_sub(light.location, ray.origin);
+        const double along = vec_dot(to, ray.direction), d = vec_length(to);
+        const double beside = vec_length(vec_mad(vec_neg(to), ray.direction, along));
+        LightSample s;
+        if (fabs(beside - light.size) < 1e-6 || fabs(d - light.size) < 1e-6)
+            continue;
+        const int wanted = along > 0 && beside < light.size && d > light.size;
+        assert_int_equal(source_meet(&light, &ray, &s), wanted);
+        if (wanted)
+            assert_true(fabs((double)s.radiance.r * light.size * light.size / (d * d) - 1) < 1e-5);
+        met += wanted;
+    }
+    assert_true(met > 500);
+}
+
 /* What callers take for granted of a row. */
 static void rows_are_whole(void **state)
 {
@@ -203,6 +249,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sources_shine_by_their_laws),
         cmocka_unit_test(lit_parts_are_where_they_shine),
+        cmocka_unit_test(most_is_the_largest),
+        cmocka_unit_test(spheres_are_met_ahead),
         cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(row_of_a_new_kind),
         cmocka_unit_test(met_sources_give_their_irradiance),
