@@ -227,6 +227,17 @@ def endings():
     print("written" if not missing else missing)
 
 
+def tell(source, attribute, length, output):
+    """A copy of an OpenEXR file whose last attribute of this name tells another length."""
+    with open(source, "rb") as file:
+        content = bytearray(file.read())
+    at = content.rindex(attribute.encode() + b"\0") + len(attribute) + 1  # its type
+    at = content.index(b"\0", at) + 1
+    content[at:at + 4] = int(length).to_bytes(4, "little")
+    with open(output, "wb") as file:
+        file.write(content)
+
+
 def main():
     what, *rest = sys.argv[1:]
     if what == "record":
@@ -238,8 +249,8 @@ def main():
                 if os.path.exists(os.path.join("whole", name)):
                     print(name, sum_of(name), result, file=table)
         return
-    if what == "endings":
-        endings()
+    if what in ("endings", "tell"):
+        {"endings": endings, "tell": tell}[what](*rest)
         return
     make_files()
     if what == "whole":

@@ -149,3 +149,25 @@ $ for f in one two; do
 +     retex-render -q --plain --size 8x6 --spp 1 --aov albedo m.pov -o of_$f.exr
 + done
 $ retex-diff -q --part albedo --fail-abs 0 of_one.exr of_two.exr >/dev/null
+
+# OpenEXR reads channels up to the last, and a float of four bytes, whatever length is told: here 55 + 1, and so much
+# that the attribute after it is in it. What follows would be taken for something else.
+% # A picture with the EXR $1, whose last attribute $2 tells the length $3.
+% render_told() {
+%     /usr/bin/python3 "$TESTS/pictures.py" tell $1.exr $2 $3 told.exr
+%     echo 'background { 1 } plane { z, 1 pigment { image_map { "told.exr" } } }' >m.pov
+%     retex-render -q --size 8x6 --spp 1 --accept-damaged m.pov -o told_set.exr && echo read
+% }
+$ render_told one channels 55
+> read
+$ render_told one pixelAspectRatio 4
+> read
+$ render_told one channels 56
+! retex-render: error: m.pov:2:1: m.pov:1: image_map: told.exr: cannot read: its header is damaged or truncated
+= 2
+$ render_told two channels 56
+! retex-render: error: m.pov:2:1: m.pov:1: image_map: told.exr: cannot read: its header is damaged or truncated
+= 2
+$ render_told one pixelAspectRatio 39
+! retex-render: error: m.pov:2:1: m.pov:1: image_map: told.exr: cannot read: its header is damaged or truncated
+= 2

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -53,13 +54,16 @@ class Reader
         }
         return value;
     }
-    // The length of a text that ends with 0; -1 if the file ends before it.
-    int64_t text()
+    // The length of a text that ends with 0, and what it begins with; -1 if the file ends before it.
+    int64_t text(std::string *begin = nullptr)
     {
         int64_t length = 0;
-        for (int next; (next = byte()) != 0; length++)
+        for (int next; (next = byte()) != 0; length++) {
             if (next < 0)
                 return -1;
+            if (begin && length < 64)
+                *begin += char(next);
+        }
         return length;
     }
     bool skip(int64_t bytes)
@@ -115,8 +119,39 @@ bool has_all_segments(Reader &in)
     }
 }
 
+// Whether a list of channels, which OpenEXR reads up to an empty name, is as long as its attribute tells.
+bool skip_channels(Reader &in, int64_t length)
+{
+    enum { Channel = 16 }; // what follows a name
+    for (int64_t name; (name = in.text()) != 0; length -= name + 1 + Channel)
+        if (name < 0 || !in.skip(Channel))
+            return false;
+    return length == 1;
+}
+
+// Whether all of an attribute is there, after its name. OpenEXR reads most types by their own size, not by the length
+// that is told: if these differ, what follows is not what it is taken for.
+bool skip_attribute(Reader &in)
+{
+    static const std::map<std::string, int64_t> sizes = {
+        {"box2f", 16}, {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},
+        {"envmap", 1}, {"float", 4},  {"int", 4},             {"keycode", 28},    {"lineOrder", 1},      {"m33d", 72},
+        {"m33f", 36},  {"m44d", 128}, {"m44f", 64},           {"rational", 8},    {"tiledesc", 9},       {"timecode", 8},
+        {"v2d", 16},   {"v2f", 8},    {"v2i", 8},             {"v3d", 24},        {"v3f", 12},           {"v3i", 12}};
+    std::string type;
+    if (in.text(&type) < 0)
+        return false;
+    const int64_t length = in.little(4);
+    if (length < 0 || length > INT32_MAX)
+        return false;
+    if (type == "chlist")
+        return skip_channels(in, length);
+    const auto size = sizes.find(type);
+    return (size == sizes.end() || size->second == length) && in.skip(length);
+}
+
 // Whether an OpenEXR file has all attributes of its headers: OpenEXR makes room for them before it reads them. A header
-// is names, each with a type and a length, to an empty name; of several parts the last header is empty.
+// is names, each with an attribute, to an empty name; of several parts the last header is empty.
 bool has_all_attributes(Reader &in)
 {
     enum { Magic = 4, SeveralParts = 0x1000 };
@@ -127,12 +162,7 @@ bool has_all_attributes(Reader &in)
         if (name == 0 && (attributes == 0 || !(version & SeveralParts)))
             return true;
         attributes = name > 0 ? attributes + 1 : 0;
-        if (name == 0)
-            continue;
-        if (name < 0 || in.text() < 0)
-            return false;
-        const int64_t length = in.little(4);
-        if (length < 0 || length > INT32_MAX || !in.skip(length))
+        if (name < 0 || (name > 0 && !skip_attribute(in)))
             return false;
     }
     return false;
