@@ -70,10 +70,11 @@ def changes(name, operands):
 
 
 class Mutant:
-    """A change of one instruction. `place` is the line of the assembly, `number` the label of the instruction."""
+    """A change of one instruction. `place` is the line of the assembly; `level` is the processor's that it is for, or
+    "" where all run it."""
 
-    def __init__(self, path, line, function, text, place, old, kind, new):
-        self.path, self.line, self.function, self.text = path, line, function, text
+    def __init__(self, path, line, function, text, level, place, old, kind, new):
+        self.path, self.line, self.function, self.text, self.level = path, line, function, text, level
         self.place, self.old, self.kind, self.new = place, old, kind, new
         self.turn = 0  # of those that are otherwise the same
         self.decides = old.startswith(("j", "set", "cmov"))
@@ -112,7 +113,7 @@ def mutants_of(path, assembly):
         source = file.read().splitlines()
     functions = functions_of(source)
     own, line, found, turns, in_text, other = set(), 0, [], {}, True, other_level()
-    runs = True
+    runs, level = True, ""
     for place, text in enumerate(assembly):
         words = text.split("#")[0].split(None, 1)
         if not words:
@@ -121,6 +122,7 @@ def mutants_of(path, assembly):
             in_text = words[0] == ".text"
         elif text[0] not in "\t .#":
             runs = not text.split(":")[0].endswith(other)
+            level = "baseline" if text.split(":")[0].endswith("_baseline") else ""
         elif words[0] == ".file":
             match = re.match(r'(\d+) (?:".*" )?"(.*)"', words[1])
             if match and os.path.normpath(match[2]) == path:
@@ -131,8 +133,8 @@ def mutants_of(path, assembly):
         elif line and in_text and runs and text[0] == "\t" and words[0][0] != "." and "GOTPCREL" not in text:
             operands = split_operands(words[1].strip() if len(words) > 1 else "")
             for kind, new in changes(words[0], operands):
-                mutant = Mutant(path, line, functions[line], " ".join(source[line - 1].split()), place,
-                                " ".join(words).strip(), kind, new)
+                mutant = Mutant(path, line, functions[line], " ".join(source[line - 1].split()), level,
+                                place, " ".join(words).strip(), kind, new)
                 turns[mutant.name] = mutant.turn = turns.get(mutant.name, -1) + 1
                 found.append(mutant)
     return found

@@ -143,7 +143,8 @@ class Compiled:
         names = [f"tests/{test}"] if test.startswith("unit/") else self.programs.all()
         try:
             there = [self.programs.change(name, self.object(mutant.path), change) for name in names]
-            return not any(there) or coverage.run_test(f"{WORK}/tree", test, limit)[0]
+            level = {"RETEX_CPU": mutant.level} if mutant.level else {}
+            return not any(there) or coverage.run_test(f"{WORK}/tree", test, limit, **level)[0]
         finally:
             self.programs.restore()
 
