@@ -60,7 +60,8 @@ def run_test(build, test, seconds, prepare=None, **more):
     nothing = subprocess.DEVNULL
     status = subprocess.run(
         ["tests/lib/check.sh", test], stdin=nothing, stdout=nothing, stderr=nothing, check=False,
-        preexec_fn=prepare, env={**os.environ, "BUILD": build, "JOBS": "1", "CI": "", "JOB_SECONDS": str(int(seconds)), **more})
+        preexec_fn=prepare, env={**os.environ, "BUILD": build, "JOBS": "1", "CI": "", "JOB_SECONDS": str(int(seconds)),
+                                 **more})
     return status.returncode == 0, time.monotonic() - start
 
 

@@ -152,6 +152,22 @@ static void test_formulas(void **state)
     }
 }
 
+/* What is brighter than white becomes black where it is turned over, and what is darker than black or no number becomes
+ * white. */
+static void test_out_of_range(void **state)
+{
+    (void)state;
+    static const float colors[4][2] = {{1.5f, 0}, {-1, 1}, {NAN, 1}, {1, 0}};
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    add(&spec, RETEX_ADJUST_INVERT, 0, 0, 0);
+    for (int k = 0; k < 4; k++) {
+        float rgb[3] = {colors[k][0], 0.25f, colors[k][0]};
+        retex_adjust_color(&spec, rgb);
+        assert_true(fabsf(rgb[0] - colors[k][1]) < 1e-6f && rgb[2] == rgb[0]);
+        assert_true(fabs((double)rgb[1] - retex_srgb_decode(1 - retex_srgb_encode(0.25))) < 1e-6);
+    }
+}
+
 /* Each begins where the one before ended. */
 static void test_order(void **state)
 {
@@ -283,8 +299,13 @@ static void test_light_and_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formulas),  cmocka_unit_test(test_order),    cmocka_unit_test(test_blur),
-        cmocka_unit_test(test_wide_blur), cmocka_unit_test(test_colorize), cmocka_unit_test(test_light_and_limits),
+        cmocka_unit_test(test_formulas),
+        cmocka_unit_test(test_out_of_range),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_blur),
+        cmocka_unit_test(test_wide_blur),
+        cmocka_unit_test(test_colorize),
+        cmocka_unit_test(test_light_and_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -293,13 +293,14 @@ static void test_colors(void **state)
 static int count_ways(RetexTextureSpec spec, int width, int height)
 {
     RetexTexture *texture = create(&spec, width, height);
+    const double high = spec.width[1] > 0 ? spec.width[1] : spec.width[0] * height / width;
     int seen[64] = {0}, count = 0;
     for (int i = 0; i < 16; i++)
         for (int j = 0; j < 16; j++) {
             float low[4], right[4];
-            const double x = i * spec.width[0], y = j * spec.width[1];
-            retex_texture_point(texture, x + 0.1 * spec.width[0], y + 0.2 * spec.width[1], low);
-            retex_texture_point(texture, x + 0.9 * spec.width[0], y + 0.2 * spec.width[1], right);
+            const double x = i * spec.width[0], y = j * high;
+            retex_texture_point(texture, x + 0.1 * spec.width[0], y + 0.2 * high, low);
+            retex_texture_point(texture, x + 0.9 * spec.width[0], y + 0.2 * high, right);
             int way = (low[0] > 0.5f) + 2 * (low[1] > 0.5f) + 4 * (right[0] > 0.5f) + 8 * (right[1] > 0.5f);
             count += !seen[way]++;
         }
@@ -315,6 +316,10 @@ static void test_vary(void **state)
     square.vary = plank.vary = RETEX_VARY_TURN;
     assert_int_equal(count_ways(square, 40, 40), 4);
     assert_int_equal(count_ways(plank, 40, 20), 2);
+    square.width[1] = plank.width[1] = 0; /* as high as the image's shape tells */
+    assert_int_equal(count_ways(square, 40, 40), 4);
+    assert_int_equal(count_ways(plank, 40, 20), 2);
+    square.width[1] = plank.width[1] = 0.2;
     square.vary = plank.vary = RETEX_VARY_FLIP;
     assert_int_equal(count_ways(square, 40, 40), 4);
     assert_int_equal(count_ways(plank, 40, 20), 4);

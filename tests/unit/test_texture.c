@@ -99,6 +99,109 @@ static void test_point(void **state)
     retex_image_free(&im);
 }
 
+/* One channel is grey; other numbers of channels than 1, 3 and 4 are refused. */
+static void test_channels(void **state)
+{
+    (void)state;
+    RetexImage grey = {0}, color = {0};
+    RetexError err = {0};
+    RetexTexture *texture;
+    test_random_image(&grey, 6, 5, 1, 3, 0, 1);
+    test_must(retex_image_alloc(&color, 6, 5, 3, &err), &err);
+    for (int i = 0; i < 90; i++)
+        color.pixels[i] = grey.pixels[i / 3];
+    RetexTexture *one = make_texture(&grey, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT),
+                 *three = make_texture(&color, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT);
+    for (int i = 0; i < 30; i++) {
+        float a[4], b[4];
+        retex_texture_point(one, (i % 6 + 0.5) / 6, 1 - (i / 6 + 0.5) / 5, a);
+        retex_texture_point(three, (i % 6 + 0.5) / 6, 1 - (i / 6 + 0.5) / 5, b);
+        assert_true(memcmp(a, b, sizeof a) == 0 && fabsf(a[0] - grey.pixels[i]) < 1e-5f && a[3] == 1);
+    }
+    retex_texture_close(&one);
+    retex_texture_close(&three);
+    for (int channels = 0; channels < 7; channels++) {
+        const int is_right = channels == 1 || channels == 3 || channels == 4;
+        grey.channels = channels, grey.width = grey.height = 2;
+        assert_int_equal(retex_texture_create(&texture, &grey, NULL, 0, &err), is_right ? RETEX_OK : RETEX_EINVAL);
+        retex_texture_close(&texture);
+    }
+    retex_image_free(&grey);
+    retex_image_free(&color);
+}
+
+/* The variance that a level tells is that of the texels that it has taken up, nearly where several levels of odd sizes
+ * are halved: an image of one bright texel shows with
+ * which weight, along both axes. */
+static void test_blur_of_levels(void **state)
+{
+    (void)state;
+    enum { WIDTH = 90, HEIGHT = 44 };
+    static float weights[8][2][WIDTH][WIDTH]; /* by level, axis, its texel, and that of the image */
+    int nlevels = 0, compared = 0;
+    for (int axis = 0; axis < 2; axis++)
+        for (int i = 0; i < (axis ? HEIGHT : WIDTH); i++) {
+            RetexImage im = {0};
+            RetexError err = {0};
+            test_must(retex_image_alloc(&im, WIDTH, HEIGHT, 3, &err), &err);
+            for (int k = 0; k < WIDTH * HEIGHT; k++)
+                for (int c = 0; c < 3; c++)
+                    im.pixels[3 * k + c] = (axis ? k / WIDTH : k % WIDTH) == i;
+            RetexTexture *texture = make_texture(&im, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT);
+            assert_true(!texture->narrow && texture->nlevels <= 8);
+            nlevels = texture->nlevels;
+            for (int l = 0; l < nlevels; l++) {
+                const RetexTextureLevel *level = &texture->levels[l];
+                const float *texels = level->texels;
+                for (int x = 0; x < (axis ? level->height : level->width); x++)
+                    weights[l][axis][x][i] = texels[4 * x * (axis ? level->width : 1)];
+                for (int of = 0; of < 2 && i == 0 && axis == 0; of++)
+                    assert_true(fabs(level->scale[of] -
+                                     (of ? HEIGHT / (double)level->height : WIDTH / (double)level->width)) < 1e-12);
+            }
+            for (int l = 1; l < nlevels && i == (axis ? HEIGHT : WIDTH) - 1; l++) {
+                const RetexTextureLevel *level = &texture->levels[l];
+                const int count = axis ? level->height : level->width;
+                for (int x = 0; x < count; x++) {
+                    double sum = 0, mean = 0, square = 0, p = (x + 0.5) / count;
+                    for (int k = 0; k <= i; k++) {
+                        const double w = (double)weights[l][axis][x][k];
+                        sum += w, mean += w * k, square += w * k * k;
+                    }
+                    mean /= sum;
+                    const double variance = square / sum - mean * mean,
+                                 told = level->blur[axis][0] + level->blur[axis][1] * p * (1 - p);
+                    if (fabs(told - variance) > 0.12 * variance)
+                        fail_msg("level %d, axis %d, texel %d: variance %g, told %g", l, axis, x, variance, told);
+                    compared++;
+                }
+            }
+            retex_texture_close(&texture);
+            retex_image_free(&im);
+        }
+    assert_true(nlevels == 7 && compared > 120);
+}
+
+/* Textures may share what is loaded only if their tiles are the same. */
+static void test_tiles_alike(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *a[2], *b[2];
+        int alike;
+    } cases[] = {{{"", ""}, {"", ""}, 1},     {{"x", ""}, {"x", ""}, 1},  {{"x", ""}, {"y", ""}, 0},
+                 {{"x", ""}, {"", ""}, 0},    {{"x", "y"}, {"x", ""}, 0}, {{"x", "y"}, {"x", "y"}, 1},
+                 {{"x", "y"}, {"y", "x"}, 0}, {{"x", "y"}, {"z", "y"}, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        RetexTextureSpec a = RETEX_TEXTURE_SPEC_INIT, b = RETEX_TEXTURE_SPEC_INIT;
+        for (int k = 0; k < 2; k++) {
+            strcpy(a.tiles[k], cases[i].a[k]);
+            strcpy(b.tiles[k], cases[i].b[k]);
+        }
+        assert_int_equal(retex_texture_specs_alike(&a, &b), cases[i].alike);
+    }
+}
+
 static void test_transform(void **state)
 {
     (void)state;
@@ -445,9 +548,10 @@ static void test_opaque(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_point),    cmocka_unit_test(test_transform),  cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_integral), cmocka_unit_test(test_variance),   cmocka_unit_test(test_alpha),
-        cmocka_unit_test(test_opaque),   cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_channels), cmocka_unit_test(test_blur_of_levels), cmocka_unit_test(test_tiles_alike),
+        cmocka_unit_test(test_point),    cmocka_unit_test(test_transform),      cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_integral), cmocka_unit_test(test_variance),       cmocka_unit_test(test_alpha),
+        cmocka_unit_test(test_opaque),   cmocka_unit_test(test_bad_values),     cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
