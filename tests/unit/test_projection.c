@@ -174,6 +174,22 @@ static void floors(void **state)
     }
 }
 
+/* Of edges of the same length u goes along the one next to the first axis, however a triangle is turned. */
+static void even_floors(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 HEAD "mesh { triangle { <-1,0,0>, <1,0,0>, <0,0,%.15f> } translate -%.15f*z rotate %d*y }", sqrt(3),
+                 1 / sqrt(3), 60 * k);
+        World world = open_world(text, "A=#1/flat:1", 1);
+        const double low = -(k % 2 ? 2 : 1) / sqrt(3);
+        check_uv(&world, "even", vec3(0.1, 0, 0.05), vec3(0.01, -1, 0), 1.1, 0.05 - low);
+        close_world(&world);
+    }
+}
+
 /* v goes up a wall, and a slope; seen from the camera's side, u goes to the right. */
 static void walls(void **state)
 {
@@ -325,9 +341,10 @@ static void all_follow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(box),      cmocka_unit_test(box_from_inside),  cmocka_unit_test(floors),
-        cmocka_unit_test(walls),    cmocka_unit_test(boards),           cmocka_unit_test(copies),
-        cmocka_unit_test(cylinder), cmocka_unit_test(chosen_by_itself), cmocka_unit_test(all_follow),
+        cmocka_unit_test(box),         cmocka_unit_test(box_from_inside), cmocka_unit_test(floors),
+        cmocka_unit_test(even_floors), cmocka_unit_test(walls),           cmocka_unit_test(boards),
+        cmocka_unit_test(copies),      cmocka_unit_test(cylinder),        cmocka_unit_test(chosen_by_itself),
+        cmocka_unit_test(all_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <cmocka.h>
+#include "lib_scene.h"
 #include "lib_stage.h"
 #include "light/sources.h"
 #include "set/samples.h"
@@ -152,13 +153,44 @@ static void irradiance_knows_no_material(void **state)
     }
 }
 
+/* Mirrors and what light passes are sharp; highlights are as wide as they say; what has neither is matt. */
+static void roughness_is_of_the_sharpest_lobe(void **state)
+{
+    static const struct {
+        const char *material;
+        double low, high;
+    } cases[] = {{"pigment { rgb .5 } finish { diffuse .7 }", 1, 1},
+                 {"pigment { rgb .5 } finish { reflection .3 }", 0, 0},
+                 {"pigment { rgbf <.5, .5, .5, .4> }", 0, 0},
+                 {"pigment { rgbt <.5, .5, .5, .4> }", 0, 0},
+                 {"pigment { rgbf .9 } interior { ior 1.5 } finish { specular .5 roughness .1 }", 0, 0},
+                 {"pigment { rgb .5 } finish { specular .5 roughness .1 }", 0.1, 0.9},
+                 {"pigment { rgb .5 } finish { specular .5 roughness .001 }", 0.01, 0.3}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *set = NULL;
+        char text[400];
+        snprintf(text, sizeof text,
+                 "#version 3.7; camera { location -3*z look_at 0 } light_source { -9*z, 1 } plane { z, 0 %s }",
+                 cases[k].material);
+        Scene *scene = test_scene(text);
+        p.width = p.height = 4, p.spp = 4, p.plain = 1, p.aovs = RETEX_AOV_ALL;
+        assert_int_equal(render_scene(&set, scene, &p, NULL, NULL), 0);
+        const double roughness = (double)*stage_part(set, "roughness", 1, 1);
+        if (!(roughness >= cases[k].low && roughness <= cases[k].high))
+            fail_msg("case %zu: roughness %g", k, roughness);
+        retex_set_close(&set);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crops_are_cut_from_the_whole),
-        cmocka_unit_test(pixels_together_are_pixels_alone),
-        cmocka_unit_test(aovs_are_of_the_first_hit),
-        cmocka_unit_test(irradiance_knows_no_material),
+        cmocka_unit_test(crops_are_cut_from_the_whole),      cmocka_unit_test(pixels_together_are_pixels_alone),
+        cmocka_unit_test(aovs_are_of_the_first_hit),         cmocka_unit_test(irradiance_knows_no_material),
+        cmocka_unit_test(roughness_is_of_the_sharpest_lobe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
