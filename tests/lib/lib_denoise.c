@@ -245,6 +245,21 @@ double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel)
 
 /* ---- calls ---- */
 
+void denoise_add_original(RetexSet *set, const double min[2], const double max[2])
+{
+    enum { TEXELS = 512 };
+    RetexError err = {0};
+    RetexTarget *t = &set->targets[0];
+    test_must(retex_set_add_part(set, "original_T0", "RGB", RETEX_FLOAT, TEXELS, 4, &t->original, &err), &err);
+    memcpy(t->original_min, min, sizeof t->original_min);
+    memcpy(t->original_max, max, sizeof t->original_max);
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < TEXELS; x++) {
+            const float red = 0.25f + 0.5f * ((float)x + 0.5f) / TEXELS;
+            put_rgb(set, t->original, x, y, red, 0.5f * red, 0);
+        }
+}
+
 const RetexDenoiseParams denoise_exactly = {
     .size = sizeof denoise_exactly, .strength = 1, .radius = 5, .footprints = 1, .full_precision = 1};
 

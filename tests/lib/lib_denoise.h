@@ -13,6 +13,9 @@
  * black except in layout plain. */
 RetexSet *denoise_set(const char *layout, int width, int height);
 
+/* Give T0 an original of 512 x 4 texels: red is 0.25 at u = min[0] and 0.75 at max[0], green half of that, blue 0. */
+void denoise_add_original(RetexSet *set, const double min[2], const double max[2]);
+
 /* Add the noise of set->spp independent samples in two halves: every sample is the true light times an exponentially
  * distributed number of mean 1. The noise parts become half of the difference between the halves. */
 void denoise_add_noise(RetexSet *set, uint32_t seed);

@@ -9,25 +9,10 @@
 
 #include "denoise/originals.h"
 
-enum { TEXELS = 512, SPP = 64 };
+enum { SPP = 64 };
 #define COVER 0.25f
 #define U 0.4f
 #define SPREAD 0.05f
-
-/* Red is `low` at u = 0 and 0.5 more at u = 1 of the original's rectangle, green half of that, blue 0. */
-static void add_original(RetexSet *set, const double min[2], const double max[2])
-{
-    RetexError err = {0};
-    RetexTarget *t = &set->targets[0];
-    test_must(retex_set_add_part(set, "original_T0", "RGB", RETEX_FLOAT, TEXELS, 4, &t->original, &err), &err);
-    memcpy(t->original_min, min, sizeof t->original_min);
-    memcpy(t->original_max, max, sizeof t->original_max);
-    for (int y = 0; y < 4; y++)
-        for (int x = 0; x < TEXELS; x++) {
-            const float red = 0.25f + 0.5f * ((float)x + 0.5f) / TEXELS;
-            put_rgb(set, t->original, x, y, red, 0.5f * red, 0);
-        }
-}
 
 /* A set of one footprint whose albedo's red differs by d from the mean. */
 static RetexSet *ramp_set(RetexFootprintKind kind, int is_whole, float d)
@@ -37,7 +22,7 @@ static RetexSet *ramp_set(RetexFootprintKind kind, int is_whole, float d)
     set->spp = SPP;
     if (is_whole)
         set->footprints[0].spread = add_part(set, "RGBA", "axes", 0);
-    add_original(set, min, max);
+    denoise_add_original(set, min, max);
     put(set, 0, 2, 1, U, 0.5f, COVER);
     float *spread = pixel(set, set->footprints[0].spread, 2, 1);
     spread[0] = SPREAD, spread[1] = is_whole ? 0 : 0.01f, spread[2] = 0;
@@ -143,7 +128,7 @@ static void test_rectangle(void **state)
     const float mean = 0.25f + 0.5f * (U + 1) / 4;
     RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
     set->spp = 2;
-    add_original(set, min, max);
+    denoise_add_original(set, min, max);
     put(set, 0, 2, 1, U, 2.5f, 0.5f);
     put_spread(set, 0, 2, 1, 0.2f, 0.01f, 0);
     put_rgb(set, set->footprints[0].albedo, 2, 1, mean + 0.01f, 0.5f * mean, 0);
@@ -191,7 +176,7 @@ static void test_denoising(void **state)
     RetexSet *set = denoise_set("footprints", 40, 32);
     const int albedo = set->footprints[0].albedo;
     set->spp = 2;
-    add_original(set, min, max);
+    denoise_add_original(set, min, max);
     for (int y = 0; y < set->height; y++)
         for (int x = 0; x < set->width; x++) {
             const float red = 0.5f + 0.25f * pixel(set, set->footprints[0].uv, x, y)[0];

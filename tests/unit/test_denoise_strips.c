@@ -32,6 +32,8 @@ static void write_noisy(const char *path, const char *layout, int width, int hei
     RetexError err = {0};
     denoise_add_noise(set, 7);
     add_fireflies(set);
+    if (set->ntargets) /* a part of another size */
+        denoise_add_original(set, (const double[2]){0, 0}, (const double[2]){1, 1});
     if (strstr(path, ".retex")) {
         RetexPackParams params = RETEX_PACK_INIT;
         params.lossless = 1;
