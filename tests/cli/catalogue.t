@@ -137,6 +137,12 @@ $ batch --resume --verify 2>&1 | masked
 > retex-combine: 1 picture, 4 kept, S
 $ batch --verify
 > 5 of 5 pictures good
+# All options that change pictures are noted, the cut and the size among them.
+$ retex-combine -q s.exr --batch t --batch-root ../cut --mkdir --manifest ../n --depth 8 --crop 1,2,20,10 --size 10x5
+$ sed 's/.*"options": "//; s/".*//' ../n | sort -u
+> quality=95 cross=3 display= view= colorspace= ocio=00000000 depth=8 crop=1,2,20,10 size=10x5
+$ retex-combine s.exr --batch t --batch-root ../cut --manifest ../n --depth 8 --crop 1,2,20,11 --size 10x5 --verify | tail -1
+> 0 of 5 pictures good; 5 stale
 # Other sources: the set, an image that keeps its name, the options, the samples, the version; an image that is gone.
 $ make_set s.exr 48 32 2
 $ batch --verify | cut -c 1-60

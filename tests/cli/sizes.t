@@ -77,8 +77,17 @@ $ combine --size 97x -o x.exr
 $ combine --crop 90,0,10,5 -o x.exr
 ! retex-combine: error: the crop 90,0,10,5 is not within the picture's 96x60 pixels
 = 2
-$ combine --crop 1,2,3 -o x.exr
+$ for c in 1,2,3 -1,0,5,5 0,-1,5,5 0,0,0,5 0,0,5,0 70000,0,5,5 0,70000,5,5 0,0,70000,5 0,0,5,70000 0,0,5,5x; do combine --crop $c -o x.exr; done
 ! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '1,2,3'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '-1,0,5,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,-1,5,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,0,0,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,0,5,0'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '70000,0,5,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,70000,5,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,0,70000,5'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,0,5,70000'
+! retex-combine: error: --crop: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '0,0,5,5x'
 = 2
 $ retex-combine -q set.exr --solve full.exr --free Floor --size 5x
 ! retex-combine: error: --solve excludes --size and --crop; --region says which part counts
