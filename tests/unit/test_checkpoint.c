@@ -363,7 +363,7 @@ static void a_nameless_band_store_gets_a_name(void **state)
     RetexBandStore *store = NULL, *read = NULL;
     for (int elsewhere = 0; elsewhere < 2; elsewhere++) {
         const char *const folder = getenv("TMPDIR");
-        if (elsewhere) /* on another file system, where there is one: what has no name cannot be linked, and is copied */
+        if (elsewhere) /* on another file system, where there is one: it is copied there, not linked */
             setenv("TMPDIR", "/dev/shm", 1);
         test_must(retex_band_store_create(&store, WIDTH, HEIGHT, KEY, elsewhere ? "/dev/null" : path, &err), &err);
         if (elsewhere && folder)
