@@ -607,21 +607,29 @@ static void far_lights_are_chosen_by_irradiance(void **state)
     scene_close(&scene);
 }
 
-/* Shares of few lights may add up to less than the largest random number: then the last one that shines is chosen. */
+/* Shares of few lights may add up to less than the largest random number: then the last one that shines is chosen. Also
+ * where lamps have shares: there numbers just below the first half's parts are the largest of each lamp. */
 static void largest_number_chooses_a_light(void **state)
 {
     (void)state;
+    const float numbers[] = {1 - 0x1p-24f, nextafterf(0.25f, 0), nextafterf(0.5f, 0)};
     Scene *scene =
-        test_scene(HEAD "#for(I,1,20) light_source { <I,2,mod(7*I,20)>, I fade_distance 1 fade_power 2 } #end "
+        test_scene(HEAD "#declare Lamp = light_source { <1,2,7>, 1 fade_distance 1 fade_power 2 } light_source { Lamp }"
+                        "#for(I,2,20) light_source { <I,2,mod(7*I,20)>, I fade_distance 1 fade_power 2 } #end "
                         "light_group { light_source { 9, 1 } sphere { 1, .1 } }");
-    Lights *lights;
-    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
-    for (int k = 0; k < 4000; k++) {
-        const LightSampleContext p = random_lit(k);
-        const LightPick pick = lights_pick(lights, &p, 1 - 0x1p-24f, 0.5f);
-        assert_true(pick.entry >= 0 && pick.entry < 20 && pick.probability < 1);
+    const char *specs[] = {"Lamp"};
+    for (int lamps = 0; lamps < 2; lamps++) {
+        Lights *lights;
+        if (lamps)
+            assert_int_equal(scene_resolve_lamps(scene, specs, 1, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, lamps ? 0.5 : 0, NULL), 0);
+        for (int k = 0; k < 6000; k++) {
+            const LightSampleContext p = random_lit(k);
+            const LightPick pick = lights_pick(lights, &p, numbers[lamps ? k % 3 : 0], 0.5f);
+            assert_true(pick.entry >= 0 && pick.entry < 20 && pick.probability < 1);
+        }
+        lights_close(&lights);
     }
-    lights_close(&lights);
     scene_close(&scene);
 }
 
