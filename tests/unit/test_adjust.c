@@ -166,6 +166,11 @@ static void test_out_of_range(void **state)
         assert_true(fabsf(rgb[0] - colors[k][1]) < 1e-6f && rgb[2] == rgb[0]);
         assert_true(fabs((double)rgb[1] - retex_srgb_decode(1 - retex_srgb_encode(0.25))) < 1e-6);
     }
+    float rgb[3] = {1.5f, 0.25f, 1.5f};
+    add(&spec, RETEX_ADJUST_SATURATION, 0.5, 0, 0); /* of black, not of less */
+    retex_adjust_color(&spec, rgb);
+    const double green = retex_srgb_decode(1 - retex_srgb_encode(0.25)), grey = retex_luminance(0, green, 0);
+    assert_true(fabs((double)rgb[0] - grey / 2) < 1e-6 && fabs((double)rgb[1] - (grey + green) / 2) < 1e-6);
 }
 
 /* Each begins where the one before ended. */
