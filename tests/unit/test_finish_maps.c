@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include <retex/color.h>
 #include <retex/host/texture_lookup.h>
 
 #include "set/samples.h"
@@ -34,8 +35,8 @@ static int remove_folder(void **state)
 {
     char path[128];
     (void)state;
-    for (int k = 0; k < 2; k++) {
-        snprintf(path, sizeof path, "%s/%s.exr", folder, k ? "map" : "color");
+    for (int k = 0; k < 3; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, k == 0 ? "color.exr" : k == 1 ? "map.exr" : "map.png");
         unlink(path);
     }
     return rmdir(folder);
@@ -105,7 +106,7 @@ static void write_texture(const char *name, const float *pixels, int channels)
     RetexError err = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
     params.is_data = 1;
-    snprintf(path, sizeof path, "%s/%s.exr", folder, name);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
     test_must(retex_image_alloc(&im, TEXELS, TEXELS, channels, &err), &err);
     memcpy(im.pixels, pixels, sizeof *pixels * TEXELS * TEXELS * (size_t)channels);
     test_must(retex_image_write(&im, path, &params, 1, &err), &err);
@@ -121,8 +122,8 @@ static RetexTextureSpec make_textures(int clear)
         map[3 * i + 2] += is_normal ? 0.5f : 0;
         color[4 * i + 3] = clear && i % 3 == 0 ? 0.25f : 1;
     }
-    write_texture("color", color, 4);
-    write_texture("map", map, 3);
+    write_texture("color.exr", color, 4);
+    write_texture("map.exr", map, 3);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
     snprintf(spec.image, sizeof spec.image, "%s/color.exr", folder);
@@ -487,6 +488,40 @@ static void placed_maps_share_texels(void **state)
     assert_null(texture);
 }
 
+/* A map of 8 bits chooses as one of floats does, by colours where it has some and by grey where it has none. */
+static void integers_choose_as_floats(void **state)
+{
+    (void)state;
+    for (int is_grey = 0; is_grey < 2; is_grey++) {
+        RetexTextureSpec spec = make_textures(0);
+        RetexTexture *textures[2] = {NULL, NULL};
+        RetexError err = {0};
+        int second = 0, third = 0;
+        for (int i = 0; i < TEXELS * TEXELS * 3 && is_grey; i++)
+            map[i] = map[i - i % 3] * 2; /* up to 7/8 */
+        write_texture("map.exr", map, 3);
+        for (int i = 0; i < TEXELS * TEXELS * 3; i++)
+            map[i] = (float)retex_srgb_decode((double)map[i]); /* which writing a PNG encodes */
+        write_texture("map.png", map, 3);
+        spec.nfinishes = FINISHES;
+        test_must(retex_texture_load(&textures[0], &spec, 1, &err), &err);
+        memcpy(strstr(spec.finish, "map.exr"), "map.png", sizeof "map.png");
+        test_must(retex_texture_load(&textures[1], &spec, 1, &err), &err);
+        for (int i = 0; i < 4 * TEXELS * TEXELS; i++) {
+            const double u = (i % (2 * TEXELS) + 0.5) / (2 * TEXELS), v = (i / (2 * TEXELS) + 0.5) / (2 * TEXELS);
+            float of[2][4];
+            for (int k = 0; k < 2; k++)
+                assert_int_equal(retex_texture_finishes(textures[k], u, v, 0, of[k]), FINISHES);
+            for (int k = 0; k < FINISHES; k++)
+                assert_float_equal(of[0][k], of[1][k], 0.006);
+            second += of[0][1] > 0.1f, third += of[0][2] > 0.1f;
+        }
+        assert_true(second > 4 && (third > 4 || is_grey));
+        for (int k = 0; k < 2; k++)
+            retex_texture_close(&textures[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -496,6 +531,7 @@ int main(void)
         cmocka_unit_test(rows_may_be_long),
         cmocka_unit_test(pictures_with_normals_follow_it_too),
         cmocka_unit_test(placed_maps_share_texels),
+        cmocka_unit_test(integers_choose_as_floats),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
