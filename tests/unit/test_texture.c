@@ -1,5 +1,6 @@
 /* Textures: wrap modes, the UV transform, and the Gaussian filter. The filter is compared with a simple numerical
  * integral of the point look-up, and with waves, whose filtered amplitude is known exactly. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include "texture/pyramid.h"
 
@@ -11,6 +12,9 @@
 #include <time.h>
 
 #include <cmocka.h>
+
+#include <retex/host/texture_lookup.h>
+#include <retex/image_file.h>
 
 static RetexTexture *make_texture(const RetexImage *im, RetexWrap wrap_u, RetexWrap wrap_v)
 {
@@ -180,6 +184,46 @@ static void test_blur_of_levels(void **state)
             retex_image_free(&im);
         }
     assert_true(nlevels == 7 && compared > 120);
+}
+
+/* Images of 8 bits are kept as integers. They are looked up and filtered as the same numbers in floats are. */
+static void test_integers(void **state)
+{
+    (void)state;
+    static const double covariances[][3] = {
+        {0, 0, 0},       {1e-4, 0, 1e-4},  {0.01, 0.002, 0.004}, {0.002, -0.004, 0.05},
+        {0.3, 0.1, 0.2}, {1e-6, 0, 0.002}, {0.02, 0.014, 0.0099}};
+    static const int sizes[][2] = {{37, 23}, {64, 48}, {5, 3}, {1, 9}};
+    uint32_t seed = 7;
+    for (int n = 0; n < 4 * 4 * 2; n++) {
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        RetexImage im = {0}, read = {0};
+        RetexTexture *integers, *floats;
+        RetexError err = {0};
+        const int channels = n < 16 ? 3 : 4;
+        spec.wrap[0] = (RetexWrap)(n % 4), spec.wrap[1] = (RetexWrap)((n / 4 + n) % 4);
+        snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("integers.png"));
+        test_random_image(&im, sizes[n / 4 % 4][0], sizes[n / 4 % 4][1], channels, 3 + (uint32_t)n, 0, 1);
+        test_must(retex_image_write(&im, spec.image, NULL, 1, &err), &err);
+        test_must(retex_texture_load(&integers, &spec, 1, &err), &err);
+        test_must(retex_image_read(&read, spec.image, NULL, 1, &err), &err);
+        test_must(retex_texture_create(&floats, &read, &spec, 1, &err), &err);
+        assert_true(integers->narrow && !floats->narrow);
+        for (int k = 0; k < 400; k++) {
+            const double u = 3 * test_random(&seed) - 1, v = 3 * test_random(&seed) - 1;
+            float a[4], b[4];
+            retex_texture_gaussian(integers, u, v, covariances[k % 7], a);
+            retex_texture_gaussian(floats, u, v, covariances[k % 7], b);
+            for (int c = 0; c < 4; c++)
+                if (fabsf(a[c] - b[c]) * (c < 3 ? b[3] : 1) > 2e-4f)
+                    fail_msg("image %d, covariance %d, channel %d: %g, not %g", n, k % 7, c, (double)a[c],
+                             (double)b[c]);
+        }
+        retex_texture_close(&integers);
+        retex_texture_close(&floats);
+        retex_image_free(&read);
+        retex_image_free(&im);
+    }
 }
 
 /* Textures may share what is loaded only if their tiles are the same. */
@@ -549,9 +593,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_channels), cmocka_unit_test(test_blur_of_levels), cmocka_unit_test(test_tiles_alike),
-        cmocka_unit_test(test_point),    cmocka_unit_test(test_transform),      cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_integral), cmocka_unit_test(test_variance),       cmocka_unit_test(test_alpha),
-        cmocka_unit_test(test_opaque),   cmocka_unit_test(test_bad_values),     cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_integers), cmocka_unit_test(test_point),          cmocka_unit_test(test_transform),
+        cmocka_unit_test(test_limits),   cmocka_unit_test(test_integral),       cmocka_unit_test(test_variance),
+        cmocka_unit_test(test_alpha),    cmocka_unit_test(test_opaque),         cmocka_unit_test(test_bad_values),
+        cmocka_unit_test(test_speed),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
