@@ -488,6 +488,31 @@ static void placed_maps_share_texels(void **state)
     assert_null(texture);
 }
 
+/* Maps of a texture that hears of its surface later lie as those of one that was made for it. */
+static void maps_hear_of_a_surface(void **state)
+{
+    (void)state;
+    RetexTextureSpec spec = make_textures(0), surface = RETEX_TEXTURE_SPEC_INIT;
+    RetexTexture *told = NULL, *made = NULL;
+    RetexError err = {0};
+    spec.nfinishes = FINISHES, spec.width[0] = 0.5, spec.uv_scale[0] = spec.uv_scale[1] = 1;
+    test_must(retex_texture_load(&told, &spec, 1, &err), &err);
+    surface.uv_scale[0] = 2, surface.uv_scale[1] = 3, surface.unit = 0.1;
+    test_must(retex_texture_set_surface(told, &surface, &err), &err);
+    spec.uv_scale[0] = 2, spec.uv_scale[1] = 3, spec.unit = 0.1;
+    test_must(retex_texture_load(&made, &spec, 1, &err), &err);
+    for (int i = 0; i < 50; i++) {
+        const double u = (double)number(), v = (double)number();
+        float a[4], b[4];
+        assert_int_equal(retex_texture_finishes(told, u, v, 0, a), FINISHES);
+        assert_int_equal(retex_texture_finishes(made, u, v, 0, b), FINISHES);
+        for (int k = 0; k < FINISHES; k++)
+            assert_float_equal(a[k], b[k], 1e-6);
+    }
+    retex_texture_close(&told);
+    retex_texture_close(&made);
+}
+
 /* A map of 8 bits chooses as one of floats does, by colours where it has some and by grey where it has none. */
 static void integers_choose_as_floats(void **state)
 {
@@ -531,6 +556,7 @@ int main(void)
         cmocka_unit_test(rows_may_be_long),
         cmocka_unit_test(pictures_with_normals_follow_it_too),
         cmocka_unit_test(placed_maps_share_texels),
+        cmocka_unit_test(maps_hear_of_a_surface),
         cmocka_unit_test(integers_choose_as_floats),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -226,6 +226,36 @@ static void test_integers(void **state)
     }
 }
 
+/* A texture that hears of its surface later lies as one that was made for it. */
+static void test_surface(void **state)
+{
+    (void)state;
+    RetexImage im = {0};
+    RetexTexture *told, *made;
+    RetexError err = {0};
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT, surface = RETEX_TEXTURE_SPEC_INIT;
+    uint32_t seed = 4;
+    test_random_image(&im, 12, 7, 3, 3, 0, 1);
+    spec.width[0] = 0.5, spec.uv_scale[0] = spec.uv_scale[1] = 1;
+    surface.uv_scale[0] = 2, surface.uv_scale[1] = 3, surface.unit = 0.1;
+    test_must(retex_texture_create(&told, &im, &spec, 1, &err), &err);
+    test_must(retex_texture_set_surface(told, &surface, &err), &err);
+    spec.uv_scale[0] = 2, spec.uv_scale[1] = 3, spec.unit = 0.1;
+    test_must(retex_texture_create(&made, &im, &spec, 1, &err), &err);
+    for (int k = 0; k < 200; k++) {
+        const double u = 3 * test_random(&seed) - 1, v = 3 * test_random(&seed) - 1;
+        float a[4], b[4];
+        retex_texture_point(told, u, v, a);
+        retex_texture_point(made, u, v, b);
+        assert_memory_equal(a, b, sizeof a);
+    }
+    surface.uv_scale[1] = 0; /* unknown: nothing has a width */
+    assert_int_equal(retex_texture_set_surface(told, &surface, &err), RETEX_EINVAL);
+    retex_texture_close(&told);
+    retex_texture_close(&made);
+    retex_image_free(&im);
+}
+
 /* Textures may share what is loaded only if their tiles are the same. */
 static void test_tiles_alike(void **state)
 {
@@ -592,11 +622,11 @@ static void test_opaque(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_channels), cmocka_unit_test(test_blur_of_levels), cmocka_unit_test(test_tiles_alike),
-        cmocka_unit_test(test_integers), cmocka_unit_test(test_point),          cmocka_unit_test(test_transform),
-        cmocka_unit_test(test_limits),   cmocka_unit_test(test_integral),       cmocka_unit_test(test_variance),
-        cmocka_unit_test(test_alpha),    cmocka_unit_test(test_opaque),         cmocka_unit_test(test_bad_values),
-        cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_channels),   cmocka_unit_test(test_blur_of_levels), cmocka_unit_test(test_tiles_alike),
+        cmocka_unit_test(test_integers),   cmocka_unit_test(test_surface),        cmocka_unit_test(test_point),
+        cmocka_unit_test(test_transform),  cmocka_unit_test(test_limits),         cmocka_unit_test(test_integral),
+        cmocka_unit_test(test_variance),   cmocka_unit_test(test_alpha),          cmocka_unit_test(test_opaque),
+        cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
