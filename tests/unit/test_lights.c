@@ -616,7 +616,7 @@ static void largest_number_chooses_a_light(void **state)
     Scene *scene =
         test_scene(HEAD "#declare Lamp = light_source { <1,2,7>, 1 fade_distance 1 fade_power 2 } light_source { Lamp }"
                         "#for(I,2,20) light_source { <I,2,mod(7*I,20)>, I fade_distance 1 fade_power 2 } #end "
-                        "light_group { light_source { 9, 1 } sphere { 1, .1 } }");
+                        "light_group { light_source { 9, 1 } light_source { 8, 1 } sphere { 1, .1 } }");
     const char *specs[] = {"Lamp"};
     for (int lamps = 0; lamps < 2; lamps++) {
         Lights *lights;
