@@ -508,6 +508,11 @@ static void maps_hear_of_a_surface(void **state)
         assert_int_equal(retex_texture_finishes(made, u, v, 0, b), FINISHES);
         for (int k = 0; k < FINISHES; k++)
             assert_float_equal(a[k], b[k], 1e-6);
+        for (int k = 0; k < FINISHES; k++) { /* and the colours of each */
+            retex_texture_point(told->finishes->colors[k], u, v, a);
+            retex_texture_point(made->finishes->colors[k], u, v, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
     }
     retex_texture_close(&told);
     retex_texture_close(&made);
