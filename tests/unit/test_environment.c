@@ -50,31 +50,47 @@ static void densities_are_those_of_luminance(void **unused)
     }
 }
 
+typedef struct Sun {
+    double theta, phi, size; /* size: cosine of its radius */
+    Vec3 direction;
+} Sun;
+
+#define CELL (PI / SKY_TABLE_HEIGHT)
+
+/* A sun of a hundredth of a cell, at the point of that cell that is looked at. */
+static Sun sun_in(int x, int y)
+{
+    const int at = (x + 2 * y) & 3;
+    const double theta = PI * (y + 0.25 + 0.5 * (at >> 1)) / SKY_TABLE_HEIGHT,
+                 phi = 2 * PI * (x + 0.25 + 0.5 * (at & 1)) / SKY_TABLE_WIDTH;
+    return (Sun){theta,
+                 phi,
+                 1 - 0.01 * sin(theta) * CELL * CELL / (2 * PI),
+                 {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)}};
+}
+
 /* A sun of a hundredth of a cell in clouds, at the point of a cell that is looked at. The table must not pass over it,
  * wherever it is in what is looked at together; and the cells about it, which its edge may reach, are sampled too. */
 static void small_suns_are_found(void **unused)
 {
     (void)unused;
     for (int n = 0; n < 16; n++) {
-        const int x = 333 + n % 4, y = 150 + n / 4, at = (x + 2 * y) & 3;
-        const double theta = PI * (y + 0.25 + 0.5 * (at >> 1)) / SKY_TABLE_HEIGHT,
-                     phi = 2 * PI * (x + 0.25 + 0.5 * (at & 1)) / SKY_TABLE_WIDTH, cell = PI / SKY_TABLE_HEIGHT;
-        const double size = 1 - 0.01 * sin(theta) * cell * cell / (2 * PI); /* cosine of its radius */
-        const Vec3 d = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+        const Sun sun = sun_in(333 + n % 4, 150 + n / 4);
         char text[1024];
         SkyTable *table;
         RetexError err = {0};
         snprintf(text, sizeof text,
                  V37 "sky_sphere{pigment{bozo scale .4 color_map{[0 rgb .4][1 rgb 1]}} pigment{gradient y"
                      " color_map{[%.15f rgbt 1][%.15f rgb 1e6]} scale 2 translate -y rotate %.15f*z rotate %.15f*y}}",
-                 (size + 1) / 2, (size + 1) / 2, -theta * 180 / PI, -phi * 180 / PI);
+                 (sun.size + 1) / 2, (sun.size + 1) / 2, -sun.theta * 180 / PI, -sun.phi * 180 / PI);
         Scene *scene = parse(text);
-        assert_true(sky_radiance(scene, d, 0).r > 9e5f);
+        assert_true(sky_radiance(scene, sun.direction, 0).r > 9e5f);
         test_must(sky_table_of(&table, scene, 0, &err), &err);
-        const double there = (double)sky_table_pdf(table, d), wanted = 1e6 / (4 * PI * (double)sky_table_mean(table));
+        const double there = (double)sky_table_pdf(table, sun.direction),
+                     wanted = 1e6 / (4 * PI * (double)sky_table_mean(table));
         assert_true(fabs(there / wanted - 1) < 1e-3);
         for (int k = 0; k < 9; k++) {
-            const double t = theta + (k / 3 - 1) * cell, p = phi + (k % 3 - 1) * cell;
+            const double t = sun.theta + (k / 3 - 1) * CELL, p = sun.phi + (k % 3 - 1) * CELL;
             const float beside = sky_table_pdf(table, vec3(sin(t) * cos(p), cos(t), sin(t) * sin(p)));
             assert_true(k == 4 || fabs((double)beside / there - 0.125) < 1e-3);
         }
@@ -96,23 +112,21 @@ static void dim_suns_are_found(void **unused)
                   "average pigment_map{[-1 rgb 0][2 rgb 6]}", 12}};
     (void)unused;
     for (int n = 0; n < 3 * 16; n++) {
-        const int x = 333 + n % 4, y = 400 + n / 4 % 4 - 300 * (n < 16), at = (x + 2 * y) & 3;
-        const double theta = PI * (y + 0.25 + 0.5 * (at >> 1)) / SKY_TABLE_HEIGHT,
-                     phi = 2 * PI * (x + 0.25 + 0.5 * (at & 1)) / SKY_TABLE_WIDTH, cell = PI / SKY_TABLE_HEIGHT;
-        const double size = 1 - 0.01 * sin(theta) * cell * cell / (2 * PI), most = skies[n / 16].most;
-        const Vec3 d = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
+        const Sun sun = sun_in(333 + n % 4, 400 + n / 4 % 4 - 300 * (n < 16));
+        const double most = skies[n / 16].most;
         char text[1024];
         SkyTable *table;
         RetexError err = {0};
         snprintf(text, sizeof text,
                  V37 "sky_sphere{%s pigment{gradient y pigment_map{[%.15f rgbt 1][%.15f %s]} scale 2 translate -y"
                      " rotate %.15f*z rotate %.15f*y}}",
-                 skies[n / 16].rest, (size + 1) / 2, (size + 1) / 2, skies[n / 16].sun, -theta * 180 / PI,
-                 -phi * 180 / PI);
+                 skies[n / 16].rest, (sun.size + 1) / 2, (sun.size + 1) / 2, skies[n / 16].sun, -sun.theta * 180 / PI,
+                 -sun.phi * 180 / PI);
         Scene *scene = parse(text);
-        assert_true(fabs((double)rgb_luminance(sky_radiance(scene, d, 0)) - most) < 1e-3 * most);
+        assert_true(fabs((double)rgb_luminance(sky_radiance(scene, sun.direction, 0)) - most) < 1e-3 * most);
         test_must(sky_table_of(&table, scene, 0, &err), &err);
-        const double there = (double)sky_table_pdf(table, d), wanted = most / (4 * PI * (double)sky_table_mean(table));
+        const double there = (double)sky_table_pdf(table, sun.direction),
+                     wanted = most / (4 * PI * (double)sky_table_mean(table));
         if (fabs(there / wanted - 1) > 1e-3)
             fail_msg("sun %d: density %g, not %g", n, there, wanted);
         sky_table_close(&table);
