@@ -26,6 +26,15 @@ $ oiiotool full.exr --cut 60x60+18+0 --resize:filter=box 30x30 -o b.exr
 $ near a.exr b.exr
 $ combine --size 96x60 -o a.exr
 $ cmp a.exr full.exr
+# More rows than are made at a time.
+$ retex-render -q --size 20x300 --spp 1 -t Floor room.pov -o tall.exr
+$ retex-combine -q tall.exr --texture Floor=tan -o full.exr
+$ retex-combine -q tall.exr --texture Floor=tan --size 10x150 -o a.exr
+$ oiiotool full.exr --resize:filter=box 10x150 -o b.exr
+$ near a.exr b.exr
+$ combine -o full.exr
+$ retex-combine set.exr --texture Wall=tan --texture Floor=rgb\(.5,.5,.5\) -o a.png 2>&1 | sed 's/[0-9.]* s$/T s/'
+> retex-combine: a.png: Wall <- rgb(0.6444797,0.45641103,0.26225066), Floor <- rgb(0.5,0.5,0.5), 96 x 60, T s
 $ retex-combine set.exr --texture Floor=rgb\(.5,.5,.5\) --size 24x -o a.png 2>&1 | sed 's/[0-9.]* s$/T s/'
 > retex-combine: a.png: Floor <- rgb(0.5,0.5,0.5), 24 x 15, T s
 $ oiiotool --info a.png
