@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <openexr.h>
 
 #include "exr/io.h"
 
@@ -97,6 +98,7 @@ static void test_matrices(void **state)
                                     {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, 0},
                                     {.64f, .33f, .3f, .6f, .15f, .06f, NAN, .329f},
                                     {.64f, .33f, .3f, .6f, .15f, .06f, .7f, .5f},
+                                    {.64f, .33f, .3f, .6f, .15f, .06f, .6895f, .3125f}, /* Z is negative, no cone is */
                                     {INFINITY, .33f, .3f, .6f, .15f, .06f, .3127f, .329f},
                                     {3e38f, 3e38f, -3e38f, 3e38f, 0, 1, .3127f, .329f}};
     for (size_t k = 0; k < sizeof none / sizeof *none; k++)
@@ -225,6 +227,28 @@ static void test_read_others(void **state)
     assert_true(rgb[0] > converted[0]); /* AP0's red is farther out than AP1's */
 }
 
+/* OpenImageIO's own attribute: the name of a space, but for the two that only say that values are linear. */
+static void test_names_of_openimageio(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {{"sRGB", "sRGB"}, {"linear", ""}, {"scene_linear", ""}, {"Linear", ""}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const char *path = test_in_folder("named.exr");
+        exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        exr_context_t context;
+        int part;
+        assert_int_equal(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &settings), 0);
+        assert_int_equal(exr_add_part(context, "x", EXR_STORAGE_SCANLINE, &part), 0);
+        assert_int_equal(exr_initialize_required_attr_simple(context, part, 1, 1, EXR_COMPRESSION_NONE), 0);
+        assert_int_equal(exr_add_channel(context, part, "Y", EXR_PIXEL_HALF, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1), 0);
+        assert_int_equal(exr_attr_set_string(context, part, "oiio:ColorSpace", cases[k][0]), 0);
+        assert_int_equal(exr_write_header(context), 0);
+        assert_int_equal(exr_write_scanline_chunk(context, part, 0, "\0", 2), 0);
+        assert_int_equal(exr_finish(&context), 0);
+        assert_string_equal(header_of(path, 0).interop, cases[k][1]);
+    }
+}
+
 /* A set's parts: colours are named, all else is data. */
 static void test_set_parts(void **state)
 {
@@ -332,8 +356,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ocio), /* first: nothing has loaded the bridge yet */
-        cmocka_unit_test(test_matrices),    cmocka_unit_test(test_written),   cmocka_unit_test(test_read),
-        cmocka_unit_test(test_read_others), cmocka_unit_test(test_set_parts),
+        cmocka_unit_test(test_matrices),
+        cmocka_unit_test(test_written),
+        cmocka_unit_test(test_read),
+        cmocka_unit_test(test_read_others),
+        cmocka_unit_test(test_names_of_openimageio),
+        cmocka_unit_test(test_set_parts),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include "exr/io.h"
+#include "exr/stored.h"
 #include "base/half.h"
 
 static const char *const path = test_own_file;
@@ -285,7 +286,7 @@ static void test_files_are_smaller_when_compressed(void **state)
     (void)state;
     RetexExrPart parts[PARTS];
     RetexImage images[PARTS];
-    size_t bytes[2], pixels = 0;
+    size_t bytes[3], pixels = 0;
     make_parts(parts, images);
     for (int i = 0; i < PARTS; i++) {
         RetexImage *im = &images[i];
@@ -293,12 +294,13 @@ static void test_files_are_smaller_when_compressed(void **state)
             im->pixels[k] = (float)(k / (size_t)im->channels % 8);
         pixels += retex_image_index(im, 0, im->height) * (parts[i].type == RETEX_HALF ? 2 : 4);
     }
-    for (int compress = 0; compress < 2; compress++) {
+    for (int compress = 0; compress < 3; compress++) {
         write_parts(parts, PARTS, compress, 2);
         free(test_read_file(path, &bytes[compress]));
     }
     assert_true(bytes[0] > pixels && bytes[0] < pixels + 8192);
-    assert_true(bytes[1] < pixels / 8 + 4096);
+    assert_true(bytes[RETEX_EXR_SMALL] < pixels / 8 + 4096);
+    assert_true(bytes[RETEX_EXR_QUICKLY] > bytes[RETEX_EXR_SMALL] && bytes[RETEX_EXR_QUICKLY] < pixels);
     for (int i = 0; i < PARTS; i++)
         retex_image_free(&images[i]);
 }
@@ -499,6 +501,37 @@ static void test_foreign_files_of_every_compression(void **state)
         }
 }
 
+/* Chunks are copied as they are from what write.c could have made: 16 lines, ZIP, or PXR24 of floats. */
+static void test_chunks_that_can_be_copied(void **state)
+{
+    (void)state;
+    enum { WIDTH = 40, HEIGHT = 33 };
+    static uint16_t zeros[WIDTH * HEIGHT];
+    const uint16_t *planes[2] = {zeros, zeros};
+    const uint32_t bands[3] = {0};
+    for (int kind = EXR_COMPRESSION_NONE; kind <= EXR_COMPRESSION_PXR24; kind++)
+        for (int tiled = 0; tiled < 2; tiled++) {
+            RetexExrRequest request = {.channels = {"R", "G"}, .bands = bands};
+            RetexExrPlan plan = {0};
+            RetexExrStored stored;
+            RetexInput *input = NULL;
+            RetexExr *exr = NULL;
+            RetexError err = {0};
+            write_by_core(planes, WIDTH, HEIGHT, (exr_compression_t)kind, tiled);
+            test_must(retex_input_open(&input, path, &err), &err);
+            test_must(retex_exr_open(&exr, input, &err), &err);
+            test_must(retex_exr_plan_open(exr, &plan, &request, &err), &err);
+            const int is_ours = kind == EXR_COMPRESSION_ZIP && !tiled;
+            assert_int_equal(retex_exr_stored_find(&stored, exr, &plan, RETEX_HALF), is_ours);
+            assert_int_equal(retex_exr_stored_find(&stored, exr, &plan, RETEX_FLOAT), 0);
+            request.bands = NULL;
+            assert_int_equal(retex_exr_stored_find(&stored, exr, &plan, RETEX_HALF), 0);
+            retex_exr_plan_close(&plan);
+            retex_exr_close(&exr);
+            retex_input_close(&input);
+        }
+}
+
 /* Put a chunk of this size and these bytes in place of a file's only one. */
 static void replace_chunk(const unsigned char *file, size_t start, int32_t size, const unsigned char *data,
                           size_t bytes)
@@ -603,6 +636,7 @@ int main(void)
         cmocka_unit_test(test_files_are_equal_for_every_thread_count),
         cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_foreign_files_of_every_compression),
+        cmocka_unit_test(test_chunks_that_can_be_copied),
         cmocka_unit_test(test_sizes_of_chunks),
         cmocka_unit_test(test_absurd_requests),
     };
