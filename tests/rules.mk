@@ -29,8 +29,9 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/common/confine.o
-# What retex-import asks of a model's surfaces is tested without Assimp.
+# What retex-import asks of a model's surfaces, and its transforms, are tested without Assimp.
 $(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/space/%.o,space room room_view)
+$(BUILD)/tests/unit/test_import_base: $(BUILD)/obj/tools/import/base/affine.o
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.
 SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/request/%.o,hints iiif name parse request url)

@@ -457,6 +457,10 @@ $ for m in ninth lacking without three; do retex-import -q $m.gltf -o uv_$m; don
 ! retex-import: warning: images on meshes without UV show one colour
 ! retex-import: warning: images of emission with a third set of UV are left out
 ! retex-import: warning: normal maps with a third set of UV are left out
+# A camera of 3DS, z up, rolled: up is z turned by a quarter about k = (2, 3, -6) / 7, k x z + k (k.z), (9, -32, 36) / 49.
+$ retex-import -q rolled.3ds -o rolled && grep '  sky\|  look_at' rolled/rolled.pov
+>   sky <0.1836735, 0.7346939, -0.6530612>
+>   look_at <0.2857143, -0.8571429, 0.4285714>
 # Lights of 3DS, z up: half of the angles of the cones, and the direction of the spot, (0, .6, -.8), as the file has it.
 $ retex-import -q lights.3ds -o lights
 $ grep light_source lights/lights.pov

@@ -203,6 +203,13 @@ studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
         for kind, name, at in ((0xb002, b'Card\0', (0, 0, 0)), (0xb003, b'Eye\0', (.75, -2.5, .5))))))
 write('card.3ds', studio)
 
+# A camera that looks along (2, 3, -6) / 7, rolled by a quarter.
+write('rolled.3ds', tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
+    0x3d3d, tds(0x4000, b'Card\0', tds(
+        0x4100, tds(0x4110, struct.pack('<H', 4), *(struct.pack('<3f', *p) for p in corners[:4])),
+        tds(0x4120, struct.pack('<H', 2), *(struct.pack('<4H', *f, 7) for f in faces)))),
+    tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', 0, 0, 0, 2, 3, -6, 90, 50))))))
+
 # A bulb twice as bright as its colour, and a spot that looks from (-4, 0, 5) to (-4, 3, 1), its cones of 30 and 50 degrees.
 corners = [(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)]
 write('lights.3ds', tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(

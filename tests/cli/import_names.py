@@ -255,7 +255,7 @@ def write_all():
     expected = {}
     for name, names in (('unnamed', [None] * 9), ('empty', [''] * 9), ('same', ['Lamp'] * 9),
                         ('alike', [NAMES[k % 4] for k in range(9)]), ('named', [f'node {k}' for k in range(9)]),
-                        ('numbers', ['nodes_3', None, 'nodes_1', None, 'nodes_2', '2', '1', None, None])):
+                        ('numbers', ['nodes_3', None, 'nodes_1', None, 'nodes_2', '3', '1', None, None])):
         model = studio(names)
         write(name + '.gltf', json.dumps(model))
         expected[name] = places_of(model)

@@ -16,8 +16,8 @@ $ retex-import -q numbers.gltf --camera 2 -o two
 $ retex-import -q numbers.gltf --camera 3 -o three
 $ grep -h '^camera' one/one.pov two/two.pov three/three.pov
 > camera { Camera_1 }
-> camera { Camera_2 }
-> camera { Camera_1 }
+> camera { Camera_3 }
+> camera { Camera_3 }
 
 # Of Collada and FBX: the same, unless a camera and a light have one name, which Assimp then does not tell apart.
 $ for m in studio_dae.dae lamps_fbx.fbx; do

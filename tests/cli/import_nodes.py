@@ -106,6 +106,6 @@ write('extensions.gltf', json.dumps(scene))
 scene = gltf({})
 scene['materials'] = [{'name': 'glass', 'pbrMetallicRoughness': {'metallicFactor': 0, 'roughnessFactor': 0}, 'extensions': {
     'KHR_materials_transmission': {'transmissionFactor': 1}, 'KHR_materials_ior': {'ior': 1.5},
-    'KHR_materials_volume': {'thicknessFactor': 1, 'attenuationDistance': 2, 'attenuationColor': [.25, .5, 1]}}}]
+    'KHR_materials_volume': {'thicknessFactor': 1, 'attenuationDistance': 2, 'attenuationColor': [.25, .5, .8]}}}]
 scene['extensionsUsed'] = list(scene['materials'][0]['extensions'])
 write('absorbs.gltf', json.dumps(scene))

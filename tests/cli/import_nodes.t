@@ -78,4 +78,4 @@ $ grep -o 'fade_power.*>' absorbs/absorbs.pov | tr -d '<>,' |
 +     awk '{ for (k = 0; k < 3; k++) printf "%.3f\n", exp(($(7 + k) - 1) * 2 / $4) }'
 > 0.250
 > 0.500
-> 1.000
+> 0.800

@@ -179,15 +179,20 @@ static void add_box(SpaceTriangles *t, const double low[3], const double high[3]
     }
 }
 
-static Space *box_room(double scale, unsigned without, int with_table)
+static Space *room_with(const double box[2][3], double scale, unsigned without)
 {
     SpaceTriangles t = make(64, 64);
     const double low[3] = {0, 0, 0}, high[3] = {5 * scale, 2.6 * scale, 4 * scale};
-    const double from[3] = {1.5 * scale, 0, scale}, to[3] = {3 * scale, .75 * scale, 2 * scale};
     add_box(&t, low, high, 1, without, 0);
-    if (with_table)
-        add_box(&t, from, to, 0, 0, 6);
+    if (box)
+        add_box(&t, box[0], box[1], 0, 0, 6);
     return create(&t);
+}
+
+static Space *box_room(double scale, unsigned without, int with_table)
+{
+    const double table[2][3] = {{1.5 * scale, 0, scale}, {3 * scale, .75 * scale, 2 * scale}};
+    return room_with(with_table ? table : NULL, scale, without);
 }
 
 static void a_box_is_measured(void **unused)
@@ -221,6 +226,28 @@ static void a_box_is_measured(void **unused)
             assert_true((double)room.cells[k].clearance > truth - 1e-4 * scale);
             assert_true((double)room.cells[k].clearance < 1.25 * truth + 0.02 * scale);
         }
+        room_free(&room);
+        space_free(space);
+    }
+}
+
+/* Along any wall; what is as flat as a carpet, or nearly as high as the room, is none. */
+static void a_counter_is_furniture(void **unused)
+{
+    (void)unused;
+    static const double boxes[][2][3] = {
+        {{0, 0, 0}, {.6, .9, 4}}, {{4.4, 0, 0}, {5, .9, 4}}, {{0, 0, 0}, {5, .9, .6}},  {{0, 0, 3.4}, {5, .9, 4}},
+        {{0, 0, 0}, {.6, .1, 4}}, {{0, 0, 0}, {.6, 2.2, 4}}, {{0, 2, 0}, {5, 2.6, .8}},
+    };
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
+        Space *space = room_with(boxes[i], 1, 0);
+        RetexError err = {0};
+        Room room;
+        assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+        if (i < 6)
+            assert_int_equal(room.is_furnished, i < 4);
+        /* below the last box, which hangs, it is lower, but most of the space is as high as before */
+        assert_true(fabs(room.height - 2.6) < 1e-3);
         room_free(&room);
         space_free(space);
     }
@@ -309,6 +336,7 @@ int main(void)
         cmocka_unit_test(the_nearest_is_that_of_a_loop),
         cmocka_unit_test(ends_of_rays_count),
         cmocka_unit_test(a_box_is_measured),
+        cmocka_unit_test(a_counter_is_furniture),
         cmocka_unit_test(a_solid_is_no_room),
         cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),
         cmocka_unit_test(a_view_is_of_the_furniture),
