@@ -116,6 +116,58 @@ static void targets_count_by_geometry(void **state)
                   .405 + .125, .08 + .125, .005 + .125);
 }
 
+/* Maps of textures are those of their pigments: of the same patterns, which disturb what is in them too. */
+static void textures_are_chosen_as_pigments(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {
+        "gradient x",
+        "uv_mapping gradient x scale <.23, 1, 1>",
+        "uv_mapping gradient y scale .17",
+        "marble turbulence .7 scale .4",
+        "bozo warp { turbulence <.4, .1, .8> } scale .3",
+        "radial frequency 5 rotate 20*z",
+        "leopard scale .05 translate .3",
+    };
+    for (size_t k = 0; k < sizeof patterns / sizeof *patterns; k++)
+        for (int way = 0; way < 4; way++) {
+            const int is_moved = way & 1, is_nested = way & 2;
+            const char *red = is_nested ? "gradient y scale .3 color_map { [.5 rgb <1, 0, 0>] [.5 rgb <0, .5, 0>] }"
+                                        : "rgb <1, 0, 0>";
+            const char *green = is_nested ? "gradient z scale .2 color_map { [.5 rgb <.7, 0, 0>] [.5 rgb <0, 1, 0>] }"
+                                          : "rgb <0, 1, 0>";
+            Scene *scenes[2];
+            int reds = 0, count = 0;
+            for (int i = 0; i < 2; i++) {
+                char text[1024];
+                snprintf(
+                    text, sizeof text,
+                    i ? HEAD
+                        " sphere { 0, 1 texture { %s texture_map { [.5 pigment { %s }] [.5 pigment { %s }] } %s } }"
+                      : HEAD " sphere { 0, 1 pigment { %s pigment_map { [.5 %s] [.5 %s] } %s } }",
+                    patterns[k], red, green, is_moved ? "rotate <10, 20, 30> translate .2" : "");
+                scenes[i] = parse(text);
+            }
+            for (double y = -.9; y < .9; y += .07)
+                for (double x = -.9; x < .9; x += .07) {
+                    if (x * x + y * y > .95)
+                        continue;
+                    const Ray ray = {vec3(x, y, -5), {0, 0, 1}, 0, INFINITY};
+                    const Hit hit = {.t = 5 - sqrt(1 - x * x - y * y), .primitive = 0};
+                    Rgb of[2] = {{0, 0, 0}, {0, 0, 0}};
+                    for (int i = 0; i < 2; i++)
+                        shading_each_leaf(scenes[i], NULL, &ray, &hit, add_seen, &of[i]);
+                    if (difference(of[0], of[1]) > 1e-6)
+                        fail_msg("%s at %g, %g: %g %g, not %g %g", patterns[k], x, y, of[1].r, of[1].g, of[0].r,
+                                 of[0].g);
+                    reds += of[0].r > .5f, count++;
+                }
+            assert_true(reds > count / 20 && reds < count - count / 20);
+            scene_close(&scenes[0]);
+            scene_close(&scenes[1]);
+        }
+}
+
 /* A surface that filters, lit from both sides by light of 1: what POV-Ray shows of rgbf <.8,.4,.1,.5> with ambient 1
  * before white is .8798 .4399 .1100 in version 3.6, and .7998 .3999 .1000 in version 3.7. */
 static void filters_hide_by_version(void **state)
@@ -165,6 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layers_are_povray),
         cmocka_unit_test(targets_count_by_geometry),
+        cmocka_unit_test(textures_are_chosen_as_pigments),
         cmocka_unit_test(filters_hide_by_version),
         cmocka_unit_test(infinite_filters_are_black),
     };
