@@ -103,3 +103,13 @@ $ retex-combine -q set.exr --solve full.exr --free Floor --size 5x
 = 2
 $ test -e x.exr
 = 1
+
+# A picture a third as large as a set of a million pixels, or smaller, is told to want a level; no other is.
+$ echo 'camera { look_at z } plane { z, 1 pigment { rgb 1 } finish { emission 1 } }' >wall.pov
+$ for s in 1024x1024 1023x1024; do retex-render -q --spp 1 --size $s -t 'W=#1' wall.pov -o $s.exr; done
+$ for s in 341x341 341x342 342x341; do
++     for of in 1024x1024 1023x1024; do
++         retex-combine $of.exr --size $s -o x.exr 2>&1 | grep ' made of all ' | sed "s/^/$s /"
++     done
++ done
+> 341x341 retex-combine: 1024x1024.exr: made of all 1024 x 1024 pixels: no level of it serves, see retex-pack --levels
