@@ -87,6 +87,9 @@ $ retex-combine -q set.exr --solve warm.exr --free color:Lamp,light:rest | sed -
 # A brand's colour, which the mean of a region becomes; one that no paint reaches.
 $ retex-combine -q set.exr --solve '#406080' --free Wall --region 40,10,20,12 -o brand.exr | tail -1
 > mean: srgb(0.2510,0.3765,0.5019), CIEDE2000 0.01
+$ oiiotool brand.exr --cut 20x12+40+10 -o region.exr
+$ oiiotool --stats region.exr | awk '/Avg/ { printf "%.3f %.3f %.3f\n", $3, $4, $5 }' # linear
+> 0.051 0.117 0.216
 $ retex-combine -q set.exr --solve '#fffa00' --free Wall --region 40,10,20,12 | sed -n '1p;3p' | sed 's/+-.*,/+-/'
 > Wall=rgb(0.6959,0.8281,0)
 > Wall: 0.6959 0.8281 0 +- at the end of its range
