@@ -123,6 +123,10 @@ $ for f in x.png y.jpg z.exr w.tif; do
 >       2
 >       2
 >       2
+$ cp s.exr ../cut.exr && printf '\377\377\377\377' | dd of=../cut.exr bs=1 seek=$(($(stat -c %s s.exr) / 2)) conv=notrunc 2>../log
+$ retex-combine ../cut.exr --batch t --plan --memory 0
+! retex-combine: error: ../cut.exr: part t0_indep3 is damaged or truncated
+= 2
 
 # A picture with the right size is damaged: only its checksum tells.
 $ printf x | dd of=a.png bs=1 seek=100 conv=notrunc 2>/dev/null

@@ -187,15 +187,17 @@ $ retex-combine set.exr --preset x.json --save-preset x.json -o x.png
 $ test -e x.png -o -e x.exr
 = 1
 $ cat >t.csv <<'END'
-+ output,picture:exposure,picture:exposure,picture:view,picture:exposur
-+ x.png,1,,Filmy,
-+ y.png,99,,,1
++ output,picture:view,picture:exposure,picture:exposure,picture:exposur
++ x.png,Filmy,1
++ y.png,,99,,1
++ z.png,Filmy,99
 + END
 $ retex-combine set.exr --batch t.csv
 ! retex-combine: error: t.csv:1: 'picture:exposure' has two columns
 ! retex-combine: error: t.csv:2: display sRGB has no view 'Filmy'; there are Standard, Filmic, Neutral, Raw
 ! retex-combine: error: t.csv:3: exposure '99': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: t.csv:3: `picture:exposur`: expected exposure, white-balance, auto-exposure or view; is exposure meant?
+! retex-combine: error: t.csv:4: exposure '99': expected stops, -30 to 30, as in 0.5
 = 2
 $ printf 'output,picture:view\nx.png,Raw\n' >t.csv
 $ retex-combine set.exr --batch t.csv --colorspace sRGB
