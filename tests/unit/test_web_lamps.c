@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "compact/light.h"
+#include "retexture/enlarge.h"
 #include "web/lamps.h"
 
 enum { WIDTH = 22, HEIGHT = 17, LAMPS = 3 };
@@ -161,12 +162,168 @@ static void dark_lamps_are_left_out(void **state)
         }
 }
 
+/* ---- shares of light ---- */
+
+enum { MOST_TERMS = 64 };
+
+/* A set whose lamps have a share of each light, an image that is so many times smaller; it has none where that is 0.
+ * names[lamp][term]: numbers of the parts. */
+static RetexSet *shared_set(const int scales[LAMPS], int shares[LAMPS][MOST_TERMS])
+{
+    static const float kept[LAMPS][3] = {{1, .5f, 2}, {.7f, .7f, .7f}, {1, 1, 1}};
+    RetexSet *set = test_set(WIDTH, HEIGHT, 4);
+    RetexError err = {0};
+    uint32_t seed = 9;
+    const int nterms = set->nterms;
+    assert_true(nterms < MOST_TERMS);
+    for (int k = 0; k < LAMPS; k++) {
+        RetexParameter lamp = {.target = -1};
+        int number;
+        snprintf(lamp.name, sizeof lamp.name, "%s", lamp_names[k]);
+        memcpy(lamp.value, kept[k], sizeof lamp.value);
+        memcpy(lamp.kept, kept[k], sizeof lamp.kept);
+        test_must(retex_set_add_parameter(set, &lamp, &number, &err), &err);
+        for (int t = 0; t < nterms; t++) {
+            RetexTerm term = set->terms[t];
+            char name[64];
+            const int scale = scales[k];
+            if (!retex_term_is_light(&term) || !scale)
+                continue;
+            snprintf(name, sizeof name, "share%d_%d", k, t);
+            test_must(retex_set_add_part(set, name, "RGB", RETEX_HALF, (WIDTH + scale - 1) / scale,
+                                         (HEIGHT + scale - 1) / scale, &shares[k][t], &err),
+                      &err);
+            RetexImage *share = &set->parts[shares[k][t]].image;
+            for (size_t i = 0; i < retex_image_index(share, 0, share->height); i++)
+                share->pixels[i] = (float)(.05 + .3 * test_random(&seed));
+            term.role = RETEX_ROLE_LAMP;
+            test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, number), &err), &err);
+            test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_IMAGE, shares[k][t]), &err), &err);
+            test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+        }
+    }
+    return set;
+}
+
+/* The share of a lamp in the light of the set's term, which one term has; NULL: the page has none. */
+static const RetexImage *share_on_page(const RetexSet *page, int lamp, const RetexSet *set, const RetexTerm *by)
+{
+    const RetexImage *found = NULL;
+    for (int t = 0; t < page->nterms; t++) {
+        const RetexTerm *term = &page->terms[t];
+        if (term->role != RETEX_ROLE_LAMP || retex_set_term_lamp(page, term) != lamp ||
+            strcmp(page->parts[term->radiance].name, set->parts[by->radiance].name) != 0)
+            continue;
+        assert_null(found);
+        assert_true(is_by_same_hits(by, term));
+        found = &page->parts[retex_term_image(term)].image;
+    }
+    return found;
+}
+
+/* Means of blocks of 2 x 2 by the light that they are shares of; plain ones where there is none. */
+static double halved(const RetexImage *share, const RetexImage *light, int x, int y, int c)
+{
+    double sum = 0, weights = 0, plain = 0, count = 0;
+    for (int py = 2 * y; py < 2 * y + 2 && py < share->height; py++)
+        for (int px = 2 * x; px < 2 * x + 2 && px < share->width; px++) {
+            const double value = (double)share->pixels[retex_image_index(share, px, py) + (size_t)c];
+            const double weight = fmax((double)light->pixels[retex_image_index(light, px, py) + (size_t)c], 0);
+            sum += weight * value, weights += weight, plain += value, count++;
+        }
+    return weights > 0 ? sum / weights : plain / count;
+}
+
+/* The sum of the shares of lamps first to last in the light of a term, each times its value; the last one's own where
+ * they are the same. */
+static void expect_share(const RetexImage *is, const RetexSet *set, int first, int last, int t, const int scales[LAMPS],
+                         int shares[LAMPS][MOST_TERMS])
+{
+    RetexImage sum = {0}, rows = {0};
+    RetexError err = {0};
+    int finest = scales[last];
+    for (int k = first; k < last; k++)
+        finest = scales[k] < finest ? scales[k] : finest;
+    const int width = (WIDTH + finest - 1) / finest, height = (HEIGHT + finest - 1) / finest;
+    test_must(retex_image_alloc(&sum, width, height, 3, &err), &err);
+    test_must(retex_image_alloc(&rows, width, height, 3, &err), &err);
+    for (int k = first; k <= last; k++) {
+        retex_enlarge_rows(&set->parts[shares[k][t]].image, scales[k] / finest, width, 0, height, rows.pixels);
+        for (size_t i = 0; i < retex_image_index(&sum, 0, height); i++)
+            sum.pixels[i] += rows.pixels[i] * (first < last ? set->parameters[k].value[i % 3] : 1);
+    }
+    const int on_page = finest < 2 ? 2 : finest;
+    assert_int_equal(is->width, (WIDTH + on_page - 1) / on_page);
+    assert_int_equal(is->height, (HEIGHT + on_page - 1) / on_page);
+    for (int y = 0; y < is->height; y++)
+        for (int x = 0; x < is->width; x++)
+            for (int c = 0; c < 3; c++) {
+                const double should = finest < 2 ? halved(&sum, &set->parts[set->terms[t].radiance].image, x, y, c)
+                                                 : (double)sum.pixels[retex_image_index(&sum, x, y) + (size_t)c];
+                assert_float_equal(is->pixels[retex_image_index(is, x, y) + (size_t)c], should, 1e-5);
+            }
+    retex_image_free(&sum);
+    retex_image_free(&rows);
+}
+
+/* Those that join `rest` are added up, at the finest size of them; those of the picture's size become half as large. */
+static void shares_are_halved_and_added(void **state)
+{
+    (void)state;
+    static const int cases[][LAMPS] = {{1, 2, 4}, {2, 2, 2}, {4, 2, 4}, {4, 4, 2}, {1, 1, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int joins = 0; joins < 2; joins++) {
+            int shares[LAMPS][MOST_TERMS];
+            RetexSet *set = shared_set(cases[i], shares), *page = shared_set(cases[i], shares);
+            RetexError err = {0};
+            char names[64];
+            int compared = 0;
+            test_must(retex_web_lamps_prepare(page, joins ? 0 : 9, names, sizeof names, &err), &err);
+            assert_string_equal(names, joins ? "Lamp, Window" : "");
+            for (int t = 0; t < set->nterms; t++)
+                for (int k = 0; k < LAMPS && retex_term_is_light(&set->terms[t]); k++) {
+                    const RetexImage *is = share_on_page(page, k, set, &set->terms[t]);
+                    assert_int_equal(!is, joins && k < LAMPS - 1);
+                    if (is)
+                        expect_share(is, set, joins ? 0 : k, k, t, cases[i], shares), compared++;
+                }
+            assert_true(compared > 3);
+            retex_set_close(&set);
+            retex_set_close(&page);
+        }
+}
+
+/* Light that meets textures counts as it is on grey; all pixels count. */
+static void brightness_is_on_grey(void **state)
+{
+    (void)state;
+    RetexSet *set = lit_set(0);
+    RetexError err = {0};
+    char names[64];
+    int direct = -1, deep = -1;
+    for (int t = 0; t < set->nterms; t++)
+        if (retex_term_is_light(&set->terms[t])) {
+            const int hits = retex_term_hits(&set->terms[t]);
+            direct = direct < 0 && !hits ? t : direct;
+            deep = deep < 0 || hits > retex_term_hits(&set->terms[deep]) ? t : deep;
+        }
+    assert_true(direct >= 0 && retex_term_hits(&set->terms[deep]) >= 2);
+    for (int k = 0; k < 2; k++)
+        for (int t = 0; t < set->nterms; t++)
+            for (int i = 0; light_of(set, k, t) && i < 3 * WIDTH * HEIGHT; i++)
+                light_of(set, k, t)[i] = t == (k ? deep : direct) && i % (3 * WIDTH) >= 3 ? k ? 1.2f : 1 : 0;
+    assert_true(brightness(set, 1) < brightness(set, 0)); /* though its light is brighter */
+    test_must(retex_web_lamps_prepare(set, 1, names, sizeof names, &err), &err);
+    assert_string_equal(names, lamp_names[1]);
+    retex_set_close(&set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_dimmest_join_the_rest),
-        cmocka_unit_test(lamps_that_are_off_stay_apart),
-        cmocka_unit_test(dark_lamps_are_left_out),
+        cmocka_unit_test(the_dimmest_join_the_rest), cmocka_unit_test(lamps_that_are_off_stay_apart),
+        cmocka_unit_test(dark_lamps_are_left_out),   cmocka_unit_test(shares_are_halved_and_added),
+        cmocka_unit_test(brightness_is_on_grey),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);
