@@ -9,6 +9,7 @@
 #include "lib_bsdf.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
+#include "shade/texture.h"
 
 static Pigment white = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0, 0}};
 
@@ -110,6 +111,28 @@ static void lambert_is_exact(void **state)
     assert_true(b.lambert && b.p_diffuse + b.p_back <= 0);
     for (float u = 0; u < 1; u += 0.25f)
         assert_int_equal(bsdf_sample(&b, u, 0.3f, 0.6f, &s), 0);
+}
+
+/* Shadows are black behind what is opaque: not behind what lets light through by its finish, or by its pigment. */
+static void what_lets_light_through_is_not_opaque(void **state)
+{
+    (void)state;
+    Pigment clear = white;
+    Case c;
+    case_begin(&c, 0);
+    assert_true(texture_is_opaque(&c.texture));
+    c.finish.retex.present = 1;
+    assert_true(texture_is_opaque(&c.texture));
+    c.finish.retex.transmission = 0.5;
+    assert_false(texture_is_opaque(&c.texture));
+    c.finish.retex.transmission = 0;
+    clear.color.transmit = 0.1f;
+    c.texture.pigment = &clear;
+    assert_false(texture_is_opaque(&c.texture));
+    c.texture.finish = NULL;
+    assert_false(texture_is_opaque(&c.texture));
+    c.texture.pigment = &white;
+    assert_true(texture_is_opaque(&c.texture));
 }
 
 static void sampling_matches_evaluation(void **state)
@@ -631,6 +654,7 @@ static void losses_are_those_of_the_curves(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lambert_is_exact),
+                                       cmocka_unit_test(what_lets_light_through_is_not_opaque),
                                        cmocka_unit_test(sampling_matches_evaluation),
                                        cmocka_unit_test(energy_is_kept),
                                        cmocka_unit_test(glass_obeys_fresnel),

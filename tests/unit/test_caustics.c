@@ -165,6 +165,31 @@ static void instances_are_casters(void **state)
     }
 }
 
+/* A mesh casts by textures of its faces too. */
+static void faces_are_casters(void **state)
+{
+    (void)state;
+    for (int clear = 0; clear < 2; clear++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
+                 "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 texture { pigment { rgb .5 } } }"
+                 "#declare Wall = texture { pigment { rgb 1 } }"
+                 "#declare Face = texture { pigment { %s } finish { diffuse 0 } }"
+                 "mesh2 { vertex_vectors { 4, <-.5, .5, -.5>, <.5, .5, -.5>, <0, .5, .6>, <0, 1.5, 0> }"
+                 "texture_list { 2, texture { Wall } texture { Face } }"
+                 "face_indices { 4, <0, 2, 1>, 1, <0, 1, 3>, 1, <1, 2, 3>, 1, <2, 0, 3>, 1 }"
+                 "texture { Wall } interior { ior 1.5 } }"
+                 "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }",
+                 clear ? "rgbt 1" : "rgb 1");
+        Scene *scene = test_scene(text);
+        Caustics *caustics = make_guide(scene, 1);
+        assert_int_equal(caustics != NULL, clear);
+        caustics_close(&caustics);
+        scene_close(&scene);
+    }
+}
+
 static void nothing_without_glass(void **state)
 {
     (void)state;
@@ -447,6 +472,7 @@ int main(void)
         cmocka_unit_test(density_is_that_of_samples),
         cmocka_unit_test(same_for_any_threads),
         cmocka_unit_test(instances_are_casters),
+        cmocka_unit_test(faces_are_casters),
         cmocka_unit_test(nothing_without_glass),
         cmocka_unit_test(budget_ends_it),
         cmocka_unit_test(mean_stays),
