@@ -167,9 +167,30 @@ static void the_polynomial_is_that_of_the_set(void **state)
             }
 }
 
+/* Light that meets no target is a term as well, also where there is no other. */
+static void light_without_hits_is_a_group(void **state)
+{
+    (void)state;
+    RetexSet *set;
+    RetexWebModel model;
+    RetexTerm term = {.role = RETEX_ROLE_INDEP, .target = -1};
+    RetexError err = {0};
+    test_must(retex_set_create(&set, 8, 6, &err), &err);
+    test_must(retex_set_add_part(set, "light", "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+    test_must(retex_web_model_open(&model, set, &err), &err);
+    assert_int_equal(model.nclasses, 0);
+    assert_int_equal(model.nterms, 1);
+    assert_int_equal(model.ngroups, 1);
+    assert_true(model.groups[0].light == term.radiance && model.groups[0].mixture < 0 && model.terms[0].gain < 0);
+    retex_web_model_close(&model);
+    retex_set_close(&set);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_polynomial_is_that_of_the_set)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_polynomial_is_that_of_the_set),
+                                       cmocka_unit_test(light_without_hits_is_a_group)};
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
