@@ -88,26 +88,17 @@ typedef struct WeightWork {
     const RetexTextureSpec *spec;
     RetexFinishScale scale;
     int channel, width;
-    const RetexDecoded *decoded;
+    const RetexImage *map;
     atomic_int colored;
     const RetexTexels *weights;
 } WeightWork;
-
-static void read_map_texel(const RetexDecoded *decoded, size_t i, float rgba[4])
-{
-    if (decoded->narrow.pixels)
-        retex_texture_read_texel(decoded->narrow.pixels, i, 1, rgba); /* premultiplied: what is clear is 0 */
-    else
-        memcpy(rgba, decoded->image.pixels + 4 * i, 4 * sizeof *rgba);
-}
 
 static void find_colors_job(void *context, int y, int thread)
 {
     WeightWork *work = context;
     (void)thread;
     for (int x = 0; x < work->width; x++) {
-        float p[4];
-        read_map_texel(work->decoded, (size_t)y * (size_t)work->width + (size_t)x, p);
+        const float *p = work->map->pixels + 4 * ((size_t)y * (size_t)work->width + (size_t)x);
         if (fabsf(p[0] - p[1]) > GREY_DIFFERENCE || fabsf(p[1] - p[2]) > GREY_DIFFERENCE)
             atomic_store(&work->colored, 1);
     }
@@ -119,9 +110,9 @@ static void weigh_job(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
-        float p[4], weights[RETEX_FINISHES_MAX];
-        read_map_texel(work->decoded, i, p);
-        retex_finish_map_weights(work->spec, work->scale, work->channel, !work->colored, p, weights);
+        float weights[RETEX_FINISHES_MAX];
+        retex_finish_map_weights(work->spec, work->scale, work->channel, !work->colored, work->map->pixels + 4 * i,
+                                 weights);
         retex_texture_store_texel(work->weights, i, (const float[4]){weights[1], weights[2], weights[3], 1});
     }
 }
@@ -199,13 +190,11 @@ static int is_normal_map(RetexFinishScale scale)
     return scale == RETEX_FINISH_BY_NORMAL || scale == RETEX_FINISH_BY_NORMAL_DX;
 }
 
-static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFinishScale scale, int channel,
+static int weigh(const RetexTexture *texture, const RetexImage *map, RetexFinishScale scale, int channel,
                  const int repeats[2], RetexTexels *weights, int nthreads, RetexError *err)
 {
-    const int is_narrow = map->narrow.pixels != NULL, width = is_narrow ? map->narrow.width : map->image.width,
-              height = is_narrow ? map->narrow.height : map->image.height;
-    *weights = (RetexTexels){repeats[0] * width, repeats[1] * height, !is_normal_map(scale), NULL};
-    if (width > INT_MAX / 2 || height > INT_MAX / 2 || retex_texels_alloc(weights))
+    *weights = (RetexTexels){repeats[0] * map->width, repeats[1] * map->height, !is_normal_map(scale), NULL};
+    if (map->width > INT_MAX / 2 || map->height > INT_MAX / 2 || retex_texels_alloc(weights))
         return no_memory(texture, err);
     if (is_normal_map(scale)) {
         retex_normal_map_weigh(&texture->spec, map, scale == RETEX_FINISH_BY_NORMAL_DX, weights, nthreads);
@@ -273,7 +262,7 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     return code;
 }
 
-int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexDecoded *map,
+int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexImage *map,
                           RetexFinishScale scale, int channel, int nthreads, RetexError *err)
 {
     ProductWork work = {.spec = &texture->spec,

@@ -3,7 +3,6 @@
 #ifndef RETEX_TEXTURE_FINISH_MAP_H
 #define RETEX_TEXTURE_FINISH_MAP_H
 
-#include "picture/decoder.h"
 #include "texture/pyramid.h"
 
 /* What a picture says at a texel. */
@@ -24,9 +23,9 @@ int retex_finish_map_has_scale(const RetexTextureSpec *spec);
 void retex_finish_map_weights(const RetexTextureSpec *spec, RetexFinishScale scale, int channel, int is_grey,
                               const float rgb[3], float weights[RETEX_FINISHES_MAX]);
 
-/* Make texture->finishes from a picture as it was read, as numbers, and the texture's texels, premultiplied and not yet
- * arranged as repeats; NULL: a constant. The larger of both sizes counts; the other is interpolated. */
-int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexDecoded *map,
+/* Make texture->finishes from a picture of four channels, as numbers, and the texture's texels, premultiplied and not
+ * yet arranged as repeats; NULL: a constant. The larger of both sizes counts; the other is interpolated. */
+int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexImage *map,
                           RetexFinishScale scale, int channel, int nthreads, RetexError *err);
 
 #endif

@@ -143,15 +143,14 @@ static int read_file(RetexTexture *texture, const char *file, const char *colors
     return retex_image_read_any(decoded, file, &params, nthreads, err);
 }
 
-/* A map is numbers, which are read as they are. */
+/* A map is numbers, which are read as they are, and are floats by that. */
 static int make_map(RetexTexture *texture, const RetexTexels *color, const char *file, RetexFinishScale scale,
                     int channel, int nthreads, RetexError *err)
 {
     RetexDecoded map = {0};
     int code = read_file(texture, file, "linear", &map, nthreads, err);
     if (!code)
-        code = retex_finish_map_make(texture, color, &map, scale, channel, nthreads, err);
-    free(map.narrow.pixels);
+        code = retex_finish_map_make(texture, color, &map.image, scale, channel, nthreads, err);
     retex_image_free(&map.image);
     return code;
 }

@@ -58,22 +58,10 @@ void retex_normal_map_repeats(const RetexTextureSpec *spec, int repeats[2])
 
 typedef struct WeighWork {
     const RetexTextureSpec *spec;
-    const RetexDecoded *map;
+    const RetexImage *map;
     int is_dx, repeats[2];
     const RetexTexels *texels;
 } WeighWork;
-
-/* Unassociated. */
-static void read_texel(const RetexDecoded *decoded, size_t i, float rgba[4])
-{
-    if (!decoded->narrow.pixels) {
-        memcpy(rgba, decoded->image.pixels + 4 * i, 4 * sizeof *rgba);
-        return;
-    }
-    retex_texture_read_texel(decoded->narrow.pixels, i, 1, rgba);
-    for (int c = 0; c < 3 && rgba[3] > 0 && rgba[3] < 1; c++)
-        rgba[c] /= rgba[3];
-}
 
 static void weigh_job(void *context, int y, int thread)
 {
@@ -84,16 +72,16 @@ static void weigh_job(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < work->texels->width; x++) {
         const int across = retex_normal_map_texel(0, x, width, work->repeats[0], &mirrored[0]);
-        float rgba[4], weights[RETEX_FINISHES_MAX],
+        const float *rgba = work->map->pixels + 4 * ((size_t)down * (size_t)width + (size_t)across);
+        float weights[RETEX_FINISHES_MAX],
             *to = (float *)work->texels->texels + 4 * ((size_t)y * (size_t)work->texels->width + (size_t)x);
-        read_texel(work->map, (size_t)down * (size_t)width + (size_t)across, rgba);
         retex_normal_map_weights(work->spec, work->is_dx, mirrored, rgba, weights);
         memcpy(to, weights + 1, 3 * sizeof *to);
         to[3] = 1;
     }
 }
 
-void retex_normal_map_weigh(const RetexTextureSpec *spec, const RetexDecoded *map, int is_dx, const RetexTexels *texels,
+void retex_normal_map_weigh(const RetexTextureSpec *spec, const RetexImage *map, int is_dx, const RetexTexels *texels,
                             int nthreads)
 {
     WeighWork work = {spec, map, is_dx, {1, 1}, texels};

@@ -7,7 +7,6 @@
 #ifndef RETEX_TEXTURE_NORMAL_MAP_H
 #define RETEX_TEXTURE_NORMAL_MAP_H
 
-#include "picture/decoder.h"
 #include "texture/pyramid.h"
 
 /* The weights of a texel of the map, r, g, b and a, 0 to 1, on the surface: turned as the texture lies there;
@@ -27,9 +26,10 @@ static inline int retex_normal_map_texel(int axis, int i, int texels, int repeat
     i = is_second ? i - texels : i;
     return *mirrored ? texels - 1 - i : i;
 }
-/* The weights of all texels, with these repeats: of the second finish and later ones, the last number is 1. texels
- * have the size. */
-void retex_normal_map_weigh(const RetexTextureSpec *spec, const RetexDecoded *map, int is_dx, const RetexTexels *texels,
+
+/* The weights of all texels of a map of four channels, unassociated, with these repeats: of the second finish and later
+ * ones, the last number is 1. texels have the size. */
+void retex_normal_map_weigh(const RetexTextureSpec *spec, const RetexImage *map, int is_dx, const RetexTexels *texels,
                             int nthreads);
 
 #endif
