@@ -120,21 +120,28 @@ static void test_uneven_light(void **state)
     retex_set_close(&set);
 }
 
-/* The rectangle of UV that the original covers. */
+/* The rectangle of UV that the original covers; beyond its ends is its edge, without variance that explains noise. */
 static void test_rectangle(void **state)
 {
     (void)state;
     static const double min[2] = {-1, 2}, max[2] = {3, 4};
-    const float mean = 0.25f + 0.5f * (U + 1) / 4;
-    RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
-    set->spp = 2;
-    denoise_add_original(set, min, max);
-    put(set, 0, 2, 1, U, 2.5f, 0.5f);
-    put_spread(set, 0, 2, 1, 0.2f, 0.01f, 0);
-    put_rgb(set, set->footprints[0].albedo, 2, 1, mean + 0.01f, 0.5f * mean, 0);
-    use(set);
-    assert_float_equal(pixel(set, set->footprints[0].albedo, 2, 1)[0], mean, 0.001);
-    retex_set_close(&set);
+    for (int beyond = 0; beyond < 2; beyond++)
+        for (int target = 0; target < 2; target++) {
+            const float u = beyond ? 3.5f : U, mean = beyond ? 0.75f : 0.25f + 0.5f * (U + 1) / 4;
+            RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
+            set->spp = 2;
+            denoise_add_original(set, min, max);
+            if (target) { /* a second one that has an original too */
+                set->targets[set->ntargets++] = set->targets[0];
+                set->footprints[0].target = set->ntargets - 1;
+            }
+            put(set, 0, 2, 1, u, 2.5f, 0.5f);
+            put_spread(set, 0, 2, 1, 0.2f, 0.01f, 0);
+            put_rgb(set, set->footprints[0].albedo, 2, 1, mean + 0.01f, 0.5f * mean, 0);
+            use(set);
+            assert_float_equal(pixel(set, set->footprints[0].albedo, 2, 1)[0], beyond ? mean + 0.01f : mean, 0.001);
+            retex_set_close(&set);
+        }
 }
 
 /* A footprint whose albedo is another one's, too, keeps it; quadrants of a pixel have one. */
