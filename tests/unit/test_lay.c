@@ -367,17 +367,57 @@ static void test_refused(void **state)
     retex_image_free(&im);
 }
 
+/* What would be larger than an image can be is refused, with its size. */
+static void test_too_large(void **state)
+{
+    (void)state;
+    const RetexTextureSpec spec = spec_of(RETEX_REPEAT_BRICK, 1, 1, 0);
+    RetexImage im = gradient(2, 40000);
+    RetexTexture *texture;
+    RetexError err = {0};
+    assert_int_equal(retex_texture_create(&texture, &im, &spec, 1, &err), RETEX_ELIMIT);
+    assert_non_null(strstr(err.message, "2 x 80000 texels"));
+    assert_null(texture);
+    retex_image_free(&im);
+}
+
+/* As many copies side by side as the limits allow: 16 along each axis, 256 blocks, 2^26 texels. */
+static void test_copies(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{40, 20},   {1000, 1000}, {3000, 900},  {900, 3000},
+                                   {2500, 20}, {20, 2500},   {4000, 3000}, {16, 16}};
+    for (RetexRepeat repeat = RETEX_REPEAT_STRAIGHT; repeat <= RETEX_REPEAT_HALF_DROP; repeat++)
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            const int *of = sizes[k];
+            RetexTextureSpec spec = spec_of(repeat, of[0], of[1], 0);
+            RetexLayout one, all;
+            RetexError err = {0};
+            test_must(retex_layout_make(&one, &spec, of[0], of[1], &err), &err);
+            spec.vary = RETEX_VARY_SHIFT;
+            test_must(retex_layout_make(&all, &spec, of[0], of[1], &err), &err);
+            const int across = all.width / one.width, up = all.height / one.height;
+            assert_true(across * one.width == all.width && up * one.height == all.height);
+            assert_int_equal(all.nblocks, across * up * one.nblocks);
+            for (int more = 0; more < 3; more++) { /* one more along either axis is too much */
+                const double a = across + (more == 1), u = up + (more == 2);
+                const int fits =
+                    a <= 16 && u <= 16 && a * u * one.nblocks <= 256 && a * u * one.width * one.height <= 1 << 26;
+                assert_int_equal(fits, more == 0);
+            }
+            retex_layout_free(&one);
+            retex_layout_free(&all);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bonds),
-        cmocka_unit_test(test_heights_by_aspect),
-        cmocka_unit_test(test_no_gaps),
-        cmocka_unit_test(test_share_of_joints),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_vary),
-        cmocka_unit_test(test_seeds),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_bonds),     cmocka_unit_test(test_heights_by_aspect),
+        cmocka_unit_test(test_no_gaps),   cmocka_unit_test(test_share_of_joints),
+        cmocka_unit_test(test_colors),    cmocka_unit_test(test_vary),
+        cmocka_unit_test(test_seeds),     cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_too_large), cmocka_unit_test(test_copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
