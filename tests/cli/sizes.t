@@ -35,6 +35,9 @@ $ near a.exr b.exr
 $ combine -o full.exr
 $ retex-combine set.exr --texture Wall=tan --texture Floor=rgb\(.5,.5,.5\) -o a.png 2>&1 | sed 's/[0-9.]* s$/T s/'
 > retex-combine: a.png: Wall <- rgb(0.6444797,0.45641103,0.26225066), Floor <- rgb(0.5,0.5,0.5), 96 x 60, T s
+$ retex-sample -q set.exr --texture Floor=rgb\(.5,.5,.5\) -o floor.exr
+$ retex-combine set.exr floor.exr --texture Wall=tan -o a.png 2>&1 | sed 's/[0-9.]* s$/T s/'
+> retex-combine: a.png: Wall <- rgb(0.6444797,0.45641103,0.26225066), Floor <- rgb(0.5,0.5,0.5), 96 x 60, T s
 $ retex-combine set.exr --texture Floor=rgb\(.5,.5,.5\) --size 24x -o a.png 2>&1 | sed 's/[0-9.]* s$/T s/'
 > retex-combine: a.png: Floor <- rgb(0.5,0.5,0.5), 24 x 15, T s
 $ oiiotool --info a.png
