@@ -191,6 +191,7 @@ $ cat >t.csv <<'END'
 + x.png,Filmy,1
 + y.png,,99,,1
 + z.png,Filmy,99
++ z.xyz,Raw
 + END
 $ retex-combine set.exr --batch t.csv
 ! retex-combine: error: t.csv:1: 'picture:exposure' has two columns
@@ -198,6 +199,7 @@ $ retex-combine set.exr --batch t.csv
 ! retex-combine: error: t.csv:3: exposure '99': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: t.csv:3: `picture:exposur`: expected exposure, white-balance, auto-exposure or view; is exposure meant?
 ! retex-combine: error: t.csv:4: exposure '99': expected stops, -30 to 30, as in 0.5
+! retex-combine: error: t.csv:5: z.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .jxl .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 = 2
 $ printf 'output,picture:view\nx.png,Raw\n' >t.csv
 $ retex-combine set.exr --batch t.csv --colorspace sRGB
