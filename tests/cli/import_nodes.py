@@ -109,3 +109,15 @@ scene['materials'] = [{'name': 'glass', 'pbrMetallicRoughness': {'metallicFactor
     'KHR_materials_volume': {'thicknessFactor': 1, 'attenuationDistance': 2, 'attenuationColor': [.25, .5, .8]}}}]
 scene['extensionsUsed'] = list(scene['materials'][0]['extensions'])
 write('absorbs.gltf', json.dumps(scene))
+
+# Smooth, of which one mirrors nothing; and more nodes below one than there was room for at first.
+scene = gltf({})
+scene['materials'] = [{'pbrMetallicRoughness': {'metallicFactor': 0, 'roughnessFactor': 0},
+                       'extensions': {'KHR_materials_specular': {'specularFactor': factor}}} for factor in (0, 1)]
+scene['extensionsUsed'] = ['KHR_materials_specular']
+scene['meshes'] = [{'primitives': [dict(scene['meshes'][0]['primitives'][0], material=k)]} for k in range(2)]
+first = len(scene['nodes'])
+scene['nodes'] += [{'mesh': k % 2, 'translation': [0, 0, k]} for k in range(5000)]
+scene['nodes'].append({'children': list(range(first, first + 5000))})
+scene['scenes'] = [{'nodes': [len(scene['nodes']) - 1]}]
+write('wide.gltf', json.dumps(scene))

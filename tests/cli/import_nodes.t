@@ -79,3 +79,9 @@ $ grep -o 'fade_power.*>' absorbs/absorbs.pov | tr -d '<>,' |
 > 0.250
 > 0.500
 > 0.800
+
+# Where nothing is mirrored there is no reflection; all of many nodes are there.
+$ retex-import wide.gltf --up y -o wide 2>&1 | grep objects
+> retex-import: 2 materials, 2 meshes, 5000 objects, 4 triangles
+$ grep -c reflection wide/wide.pov
+> 1
