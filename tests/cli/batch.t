@@ -666,22 +666,23 @@ $ rm [abc].exr
 $ new_files
 
 # What several rows have on one target is filtered once, but not another placement, and not without memory. The bits are
-# those of single pictures, also where memory is short. Six textures are in several rows, of 96 rows of footprints each,
-# and are wanted 26 times, twice in a row where the exposure is measured first; a colour is not filtered.
+# those of single pictures, also where memory is short. Seven textures are in several rows, of 96 rows of footprints
+# each, and are wanted 28 times, twice in a row where the exposure is measured first; a colour alone is not filtered.
 $ {
 +     echo output,floor,wall,picture:auto-exposure
 +     for f in '' ':rotate=20 '; do
 +         for w in '' ':scale=3 ' ':flip=u '; do echo "f$((n += 1)).exr,${f}brick.jpg,${w}brick.jpg,yes"; done
 +     done
 +     for k in 7 8; do echo "f$k.exr,\"rgb(.1,.2,.3)\",:scale=5 brick.jpg,"; done
++     for k in 9 10; do echo "f$k.exr,\"rgb(.1,.2,.3) + :at=.5,.5:scale=2 brick.jpg\",:rotate=$k brick.jpg,"; done
 + } >../t
 $ for m in 2048 1 0; do
 +     retex-combine -v s.exr --batch ../t --batch-root m$m --mkdir --memory $m 2>&1 | grep ' found again, at most '
 + done
-> retex-combine: textures that several pictures have: 576 rows of footprints filtered, 1920 found again, at most 0.2 MB kept
-> retex-combine: textures that several pictures have: 576 rows of footprints filtered, 1920 found again, at most 0.2 MB kept
+> retex-combine: textures that several pictures have: 672 rows of footprints filtered, 2016 found again, at most 0.2 MB kept
+> retex-combine: textures that several pictures have: 672 rows of footprints filtered, 2016 found again, at most 0.2 MB kept
 = 1
-$ for k in 1 2 3 4 5 6 7 8; do
+$ for k in $(seq 10); do
 +     retex-combine -q s.exr --batch ../t --rows $k-$k --batch-root one --mkdir
 +     cmp one/f$k.exr m2048/f$k.exr
 +     cmp one/f$k.exr m1/f$k.exr
