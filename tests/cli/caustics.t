@@ -50,7 +50,7 @@ $ render -t Ground --finish Ground=original,Shiny --caustics-guide -o set.exr
 $ for f in original Shiny; do
 +     retex-combine -q set.exr --finish Ground=$f -o guided.exr
 +     render --plain --finish Ground=$f -o chance.exr
-+     echo $(mean guided) $(mean chance) | awk '$1 < .985 * $2 || $1 > 1.015 * $2 { print } END { print NR }'
++     echo $(mean guided) $(mean chance) | awk '{ print (NF == 2 && $1 > .985 * $2 && $1 < 1.015 * $2) }'
 + done
 > 1
 > 1

@@ -190,13 +190,23 @@ def tds(kind, *inside):
     return struct.pack('<HI', kind, 6 + len(data)) + data
 
 
+def tds_file(*objects):
+    return tds(0x4d4d, tds(2, struct.pack('<I', 3)), *objects)
+
+
+def tds_cards(name, corners):
+    """A mesh of rectangles, of four corners each."""
+    indices = [struct.pack('<4H', *(k + i for i in f), 7) for k in range(0, len(corners), 4) for f in faces]
+    return tds(0x4000, name + b'\0', tds(
+        0x4100, tds(0x4110, struct.pack('<H', len(corners)), *(struct.pack('<3f', *p) for p in corners)),
+        tds(0x4120, struct.pack('<H', len(indices)), *indices)))
+
+
 # 3DS, z up: the card, and the reference's camera, whose lens is 2400 by its angle in degrees.
 corners = [(x, -z, y) for x, y, z in positions + side]
 angle = math.degrees(2 * math.atan(math.tan(.3) * 4 / 3))
-studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
-    0x3d3d, tds(0x4000, b'Card\0', tds(
-        0x4100, tds(0x4110, struct.pack('<H', 8), *(struct.pack('<3f', *p) for p in corners)),
-        tds(0x4120, struct.pack('<H', 4), *(struct.pack('<4H', *(4 * k + i for i in f), 7) for k in range(2) for f in faces)))),
+studio = tds_file(tds(
+    0x3d3d, tds_cards(b'Card', corners),
     tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', .75, -2.5, .5, .75, 0, .5, 0, 2400 / angle)))),
     tds(0xb000, *(tds(kind, tds(0xb010, name + struct.pack('<HHH', 0, 0, 0xffff)), tds(
         0xb020, struct.pack('<HII', 0, 0, 0), struct.pack('<IIH', 1, 0, 0), struct.pack('<3f', *at)))
@@ -204,18 +214,14 @@ studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
 write('card.3ds', studio)
 
 # A camera that looks along (2, 3, -6) / 7, rolled by a quarter.
-write('rolled.3ds', tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
-    0x3d3d, tds(0x4000, b'Card\0', tds(
-        0x4100, tds(0x4110, struct.pack('<H', 4), *(struct.pack('<3f', *p) for p in corners[:4])),
-        tds(0x4120, struct.pack('<H', 2), *(struct.pack('<4H', *f, 7) for f in faces)))),
+write('rolled.3ds', tds_file(tds(
+    0x3d3d, tds_cards(b'Card', corners[:4]),
     tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', 0, 0, 0, 2, 3, -6, 90, 50))))))
 
 # A bulb twice as bright as its colour, and a spot that looks from (-4, 0, 5) to (-4, 3, 1), its cones of 30 and 50 degrees.
 corners = [(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)]
-write('lights.3ds', tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
-    0x3d3d, tds(0x4000, b'Floor\0', tds(
-        0x4100, tds(0x4110, struct.pack('<H', 4), *(struct.pack('<3f', *p) for p in corners)),
-        tds(0x4120, struct.pack('<H', 2), *(struct.pack('<4H', *f, 7) for f in faces)))),
+write('lights.3ds', tds_file(tds(
+    0x3d3d, tds_cards(b'Floor', corners),
     tds(0x4000, b'Bulb\0', tds(0x4600, struct.pack('<3f', 1, 2, 3), tds(0x10, struct.pack('<3f', 1, .5, .25)),
                                 tds(0x465b, struct.pack('<f', 2)))),
     tds(0x4000, b'Lamp\0', tds(0x4600, struct.pack('<3f', -4, 0, 5), tds(0x10, struct.pack('<3f', .25, .5, 1)),

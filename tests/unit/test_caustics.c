@@ -10,13 +10,13 @@
 #include "render/render.h"
 #include "path/sampler.h"
 
-static const char LENS[] =
-    "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
-    "#default { finish { ambient 0 diffuse 1 } }"
-    "plane { y, 0 texture { pigment { rgb .5 } } }"
+#define GROUND                                                                                                         \
+    "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"              \
+    "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 texture { pigment { rgb .5 } } }"
+#define DISC "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }"
+static const char LENS[] = GROUND
     "sphere { 0, .5 texture { pigment { rgbt 1 } finish { diffuse 0 reflection { 0, 1 fresnel on } conserve_energy } }"
-    " interior { ior 1.5 } translate <0, .9, 0> }"
-    "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }";
+    " interior { ior 1.5 } translate <0, .9, 0> }" DISC;
 static const char NO_GLASS[] = "#version 3.7; camera { location -4*z look_at 0 } sphere { 0, 1 pigment { rgb 1 } }"
                                "disc { 5*y, y, .3 texture { pigment { rgb 1 } finish { diffuse 0 emission 9 } } }";
 
@@ -146,13 +146,10 @@ static void instances_are_casters(void **state)
     for (int inherits = 0; inherits < 2; inherits++) {
         char text[2048];
         snprintf(text, sizeof text,
-                 "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
-                 "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 texture { pigment { rgb .5 } } }"
-                 "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }"
-                 "#declare Many = union { sphere { 0, .5 %s interior { ior 1.5 } translate <0, .9, 0> }"
-                 "#for (I, 1, 8192) sphere { <I, -50, 0>, .1 pigment { rgb 1 } } #end }"
-                 "object { Many translate -500*y } object { Many rotate 30*y %s }"
-                 "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }",
+                 GROUND "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }"
+                        "#declare Many = union { sphere { 0, .5 %s interior { ior 1.5 } translate <0, .9, 0> }"
+                        "#for (I, 1, 8192) sphere { <I, -50, 0>, .1 pigment { rgb 1 } } #end }"
+                        "object { Many translate -500*y } object { Many rotate 30*y %s }" DISC,
                  inherits ? "" : "texture { Clear }", inherits ? "texture { Clear }" : "");
         Scene *scene = test_scene(text);
         Vec3 points[400];
@@ -172,15 +169,12 @@ static void faces_are_casters(void **state)
     for (int clear = 0; clear < 2; clear++) {
         char text[2048];
         snprintf(text, sizeof text,
-                 "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
-                 "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 texture { pigment { rgb .5 } } }"
-                 "#declare Wall = texture { pigment { rgb 1 } }"
-                 "#declare Face = texture { pigment { %s } finish { diffuse 0 } }"
-                 "mesh2 { vertex_vectors { 4, <-.5, .5, -.5>, <.5, .5, -.5>, <0, .5, .6>, <0, 1.5, 0> }"
-                 "texture_list { 2, texture { Wall } texture { Face } }"
-                 "face_indices { 4, <0, 2, 1>, 1, <0, 1, 3>, 1, <1, 2, 3>, 1, <2, 0, 3>, 1 }"
-                 "texture { Wall } interior { ior 1.5 } }"
-                 "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }",
+                 GROUND "#declare Wall = texture { pigment { rgb 1 } }"
+                        "#declare Face = texture { pigment { %s } finish { diffuse 0 } }"
+                        "mesh2 { vertex_vectors { 4, <-.5, .5, -.5>, <.5, .5, -.5>, <0, .5, .6>, <0, 1.5, 0> }"
+                        "texture_list { 2, texture { Wall } texture { Face } }"
+                        "face_indices { 4, <0, 2, 1>, 1, <0, 1, 3>, 1, <1, 2, 3>, 1, <2, 0, 3>, 1 }"
+                        "texture { Wall } interior { ior 1.5 } }" DISC,
                  clear ? "rgbt 1" : "rgb 1");
         Scene *scene = test_scene(text);
         Caustics *caustics = make_guide(scene, 1);

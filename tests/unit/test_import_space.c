@@ -244,9 +244,9 @@ static void a_counter_is_furniture(void **unused)
         RetexError err = {0};
         Room room;
         assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
-        if (i < 6)
+        if (i < 6) /* the last one hangs */
             assert_int_equal(room.is_furnished, i < 4);
-        /* below the last box, which hangs, it is lower, but most of the space is as high as before */
+        /* below that it is lower, but most of the space is as high as before */
         assert_true(fabs(room.height - 2.6) < 1e-3);
         room_free(&room);
         space_free(space);
