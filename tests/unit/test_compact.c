@@ -226,6 +226,39 @@ static void corrections_are_as_fine_as_what_is_kept(void **state)
     retex_set_close(&set);
 }
 
+/* Those of light from either of two targets have the textures of both. */
+static void corrections_are_of_all_targets(void **state)
+{
+    (void)state;
+    RetexSet *set = whole_set(2, 2);
+    RetexError err = {0};
+    const RetexMixture *last = &set->mixtures[set->nmixtures - 1];
+    RetexTerm term = test_term(set, 0, 2, (int[]){MIXTURE(0), MIXTURE(set->nmixtures - 1)});
+    int of_set = 0, found = 0;
+    for (int k = 0; k < last->nshares; k++)
+        of_set |= 1 << set->footprints[last->shares[k].footprint].target;
+    assert_int_equal(of_set, 3);
+    test_must(retex_set_add_part(set, "correction", "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+    put_rgb(set, term.radiance, 3, 3, 1, 1, 1);
+    test_must(retex_set_add_correction(set, &term, NULL, &err), &err);
+    RetexSet *compact = compacted(set, 4, 8, 1);
+    for (int t = 0; t < compact->nterms; t++) {
+        if (compact->terms[t].role != RETEX_ROLE_CORRECTION)
+            continue;
+        const RetexFactor factor = compact->terms[t].factors[1];
+        int targets = 0;
+        found++;
+        assert_int_equal(factor.kind, RETEX_FACTOR_MIXTURE);
+        const RetexMixture *mixture = &compact->mixtures[factor.index];
+        for (int k = 0; k < mixture->nshares; k++)
+            targets |= 1 << compact->footprints[mixture->shares[k].footprint].target;
+        assert_int_equal(targets, 3);
+    }
+    assert_int_equal(found, 1);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
 static void one_cluster_needs_no_mixture(void **state)
 {
     RetexSet *set = whole_set(1, 1), *compact = compacted(set, 4, 8, 2);
@@ -256,63 +289,6 @@ static void empty_kinds_do_no_harm(void **state)
     expect_same_picture(set, compact, bright);
     retex_set_close(&set);
     retex_set_close(&compact);
-}
-
-/* The grey world of gains that do not change goes into the smallest images; an edge in them does not. */
-static void sizes_follow_the_loss(void **state)
-{
-    (void)state;
-    for (int edge = 0; edge < 2; edge++) {
-        RetexSet *set = whole_set(1, 1), *compact;
-        RetexError err = {0};
-        for (int i = 1; i < set->nterms; i++)
-            for (int y = 0; y < HIGH; y++)
-                for (int x = 0; x < WIDE; x++) {
-                    const float light = edge && set->terms[i].nfactors > 1 && (x / 5 + y / 5) % 2 ? 0 : 0.3f;
-                    put_rgb(set, set->terms[i].radiance, x, y, light, light, light);
-                }
-        for (int i = 0; i < set->nfootprints; i++)
-            for (int k = 0; k < WIDE * HIGH; k++)
-                put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
-        test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
-        const int gain = retex_set_find_part(compact, "gain_T0_sharp");
-        assert_true(gain > 0);
-        assert_int_equal(retex_set_scale(compact, &compact->parts[gain].image), edge ? 1 : 8);
-        retex_set_close(&set);
-        retex_set_close(&compact);
-    }
-}
-
-/* The scale of broad footprints, of so little light from the squares of a chequerboard, on a wall that has so much
- * noise. */
-static int scale_on_wall(float noise, float light)
-{
-    RetexSet *set = set_of_wall(noise, 1024), *compact;
-    RetexError err = {0};
-    const int broad = add_footprint(set, 0, RETEX_FOOTPRINT_BROAD, 5, "RGB"), part = add_term(set, 1, broad, 0);
-    for (int y = 0; y < HIGH; y++)
-        for (int x = 0; x < WIDE; x++) {
-            put(set, broad, x, y, (x / 5 + y / 5) % 2 ? 0.3f : 0.31f, 0.4f, 1);
-            put_spread(set, broad, x, y, 0.004f, 0.004f, 0);
-            put_rgb(set, set->footprints[broad].albedo, x, y, 0.5f, 0.5f, 0.5f);
-            put_rgb(set, part, x, y, light, light, light);
-        }
-    test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
-    const int uv = retex_set_find_part(compact, "uv_T0_broad1");
-    assert_true(uv > 0);
-    const int scale = retex_set_scale(compact, &compact->parts[uv].image);
-    retex_set_close(&set);
-    retex_set_close(&compact);
-    return scale;
-}
-
-/* What is lost already, if about as much as may be, takes nothing from what sizes may lose. */
-static void sizes_may_lose_on_top(void **state)
-{
-    (void)state;
-    assert_int_equal(scale_on_wall(0.005f, 0.022f), 8);
-    assert_int_equal(scale_on_wall(0.038f, 0.022f), 8);
-    assert_int_equal(scale_on_wall(0.038f, 0.08f), 1);
 }
 
 /* A block's clusters have the light of all clusters that were merged into them, of both kinds. */
@@ -453,10 +429,9 @@ int main(void)
         cmocka_unit_test(the_picture_is_no_term),
         cmocka_unit_test(corrections_move_no_footprints),
         cmocka_unit_test(corrections_are_as_fine_as_what_is_kept),
+        cmocka_unit_test(corrections_are_of_all_targets),
         cmocka_unit_test(one_cluster_needs_no_mixture),
         cmocka_unit_test(empty_kinds_do_no_harm),
-        cmocka_unit_test(sizes_follow_the_loss),
-        cmocka_unit_test(sizes_may_lose_on_top),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,19 @@ static const RetexFootprint *whole_of(const RetexSet *compact)
     return f;
 }
 
+/* The mean u of a pixel's clusters; 0 where it is whole. */
+static float mean_of_clusters(const RetexSet *compact, int x, int y)
+{
+    float mean = 0;
+    for (int k = 0; k < compact->nfootprints - 1; k++) {
+        char name[] = "weight_T0_sharp1";
+        name[sizeof name - 2] = (char)('1' + k);
+        mean += *pixel(compact, retex_set_find_part(compact, name), x, y) *
+                pixel(compact, compact->footprints[k].uv, x, y)[0];
+    }
+    return mean;
+}
+
 /* How many pixels of a wall are whole once compact, and how many of those at x = 20 are where the set says. */
 static int whole_pixels_of_wall(float noise, int samples, int *off)
 {
@@ -27,13 +40,7 @@ static int whole_pixels_of_wall(float noise, int samples, int *off)
     for (int y = 0; y < HIGH; y++)
         for (int x = 0; x < WIDE; x++) {
             const float *uv = pixel(compact, f->uv, x, y), *axes = pixel(compact, f->spread, x, y);
-            float mean = 0;
-            for (int k = 0; k < compact->nfootprints - 1; k++) {
-                char name[] = "weight_T0_sharp1";
-                name[sizeof name - 2] = (char)('1' + k);
-                mean += *pixel(compact, retex_set_find_part(compact, name), x, y) *
-                        pixel(compact, compact->footprints[k].uv, x, y)[0];
-            }
+            const float mean = mean_of_clusters(compact, x, y);
             *off += x == 20 && fabsf(mean / step - (float)x + 0.1f) < 0.04f;
             count += uv[2] > 0 && fabsf(uv[0] / step - (float)x) < 0.012f + noise / 10 &&
                      fabsf(uv[1] / step - (float)y) < 0.012f + noise / 10 &&
@@ -54,13 +61,41 @@ static void even_pixels_are_whole(void **state)
     assert_int_equal(off, HIGH);
 }
 
-/* Few samples are off by chance, and are no reason to doubt the map; many would be. */
+/* Few samples are off by chance, and are no reason to doubt the map; many would be, and few that lie as evenly as those
+ * of strata. */
 static void few_samples_are_even_too(void **state)
 {
     int off;
     (void)state;
+    assert_true(whole_pixels_of_wall(0.04f, 20, &off) > HIGH * WIDE * 9 / 10);
+    assert_int_equal(off, HIGH);
     assert_true(whole_pixels_of_wall(0.4f, 20, &off) > HIGH * WIDE * 8 / 10);
     assert_true(whole_pixels_of_wall(0.4f, 4096, &off) < HIGH * WIDE / 2);
+}
+
+/* A tenth of a pixel is chance for a pixel of twenty samples, and is none for one of a thousand in the same
+ * picture. */
+static void chance_is_of_each_pixels_samples(void **state)
+{
+    enum { OFF = 20, ROWS = HIGH / 2, NEAR = 2 /* rows that see both sorts */ };
+    const float step = 1.0f / 64;
+    RetexSet *set = set_of_wall(0.4f, 20), *fine = set_of_wall(0.056f, 1024);
+    int whole = 0;
+    (void)state;
+    for (int i = 0; i < set->nparts; i++) {
+        RetexImage *to = &set->parts[i].image;
+        const size_t first = retex_image_index(to, 0, ROWS), end = retex_image_index(to, 0, HIGH);
+        memcpy(to->pixels + first, fine->parts[i].image.pixels + first, (end - first) * sizeof *to->pixels);
+    }
+    RetexSet *compact = compacted(set, 4, 8, 1);
+    for (int y = 0; y < ROWS - NEAR; y++)
+        whole += pixel(compact, whole_of(compact)->uv, OFF, y)[2] > 0;
+    assert_true(whole > (ROWS - NEAR) * 3 / 4);
+    for (int y = ROWS + NEAR; y < HIGH; y++)
+        assert_float_equal(mean_of_clusters(compact, OFF, y) / step, OFF - 0.1f, 0.05f);
+    retex_set_close(&set);
+    retex_set_close(&fine);
+    retex_set_close(&compact);
 }
 
 /* Ground to a horizon two pixels above the picture, in quarters with a twentieth of noise. */
@@ -229,6 +264,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(even_pixels_are_whole),
         cmocka_unit_test(few_samples_are_even_too),
+        cmocka_unit_test(chance_is_of_each_pixels_samples),
         cmocka_unit_test(even_pixels_run_to_a_horizon),
         cmocka_unit_test(parallelograms_stay),
         cmocka_unit_test(places_are_not_averaged_across_a_seam),
