@@ -149,8 +149,9 @@ asan:
 	ASAN_OPTIONS=quarantine_size_mb=16:intercept_tls_get_addr=0 \
 	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lib/lsan.supp:print_suppressions=0 \
 	    $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check
+# Models are read by a process that has been forked, and may have threads.
 tsan:
-	TSAN_OPTIONS='ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
+	TSAN_OPTIONS='die_after_fork=0 ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
 	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check
 comma := ,
 
