@@ -9,28 +9,38 @@
 #include "compact/distortion.h"
 #include "compact/light.h"
 
+/* The scale of the gains of a set of which every footprint shows one place. Frees the set. */
+static int scale_of_gains(RetexSet *set, double noise)
+{
+    RetexSet *compact;
+    RetexCompactParams params = RETEX_COMPACT_INIT;
+    RetexError err = {0};
+    params.noise = noise;
+    for (int i = 0; i < set->nfootprints; i++)
+        for (int k = 0; k < WIDE * HIGH; k++)
+            put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
+    test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
+    const int gain = retex_set_find_part(compact, "gain_T0_sharp");
+    assert_true(gain > 0);
+    const int scale = retex_set_scale(compact, &compact->parts[gain].image);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+    return scale;
+}
+
 /* The grey world of gains that do not change goes into the smallest images; an edge in them does not. */
 static void sizes_follow_the_loss(void **state)
 {
     (void)state;
     for (int edge = 0; edge < 2; edge++) {
-        RetexSet *set = whole_set(1, 1), *compact;
-        RetexError err = {0};
+        RetexSet *set = whole_set(1, 1);
         for (int i = 1; i < set->nterms; i++)
             for (int y = 0; y < HIGH; y++)
                 for (int x = 0; x < WIDE; x++) {
                     const float light = edge && set->terms[i].nfactors > 1 && (x / 5 + y / 5) % 2 ? 0 : 0.3f;
                     put_rgb(set, set->terms[i].radiance, x, y, light, light, light);
                 }
-        for (int i = 0; i < set->nfootprints; i++)
-            for (int k = 0; k < WIDE * HIGH; k++)
-                put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
-        test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
-        const int gain = retex_set_find_part(compact, "gain_T0_sharp");
-        assert_true(gain > 0);
-        assert_int_equal(retex_set_scale(compact, &compact->parts[gain].image), edge ? 1 : 8);
-        retex_set_close(&set);
-        retex_set_close(&compact);
+        assert_int_equal(scale_of_gains(set, 1), edge ? 1 : 8);
     }
 }
 
@@ -66,45 +76,29 @@ static void sizes_may_lose_on_top(void **state)
     assert_int_equal(scale_on_wall(0.038f, 0.08f), 1);
 }
 
-/* The scale of gains of dim further light, on a denoised wall with as much noise for its light. */
-static int scale_of_noise(double noise)
-{
-    RetexSet *set = whole_set(1, 1), *compact;
-    RetexCompactParams params = RETEX_COMPACT_INIT;
-    RetexError err = {0};
-    uint32_t seed = 17;
-    set->denoised = 1;
-    params.noise = noise;
-    for (int i = 1; i < set->nterms; i++)
-        for (int y = 0; y < HIGH; y++)
-            for (int x = 0; x < WIDE; x++) {
-                const float mean = set->terms[i].nfactors > 1 ? 0.06f : 0.3f;
-                const float light = mean * (1 + 0.5f * (float)(test_random(&seed) - 0.5));
-                put_rgb(set, set->terms[i].radiance, x, y, light, light, light);
-            }
-    for (int i = 0; i < set->nfootprints; i++)
-        for (int k = 0; k < WIDE * HIGH; k++)
-            put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
-    test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
-    const int gain = retex_set_find_part(compact, "gain_T0_sharp");
-    assert_true(gain > 0);
-    const int scale = retex_set_scale(compact, &compact->parts[gain].image);
-    retex_set_close(&set);
-    retex_set_close(&compact);
-    return scale;
-}
-
-/* Noise may go, but not where it is asked to be kept. */
+/* Noise of a denoised wall may go, but not where it is asked to be kept. Gains are of dim further light, which has as
+ * much noise for its light. */
 static void noise_is_kept_where_it_is_asked_for(void **state)
 {
     (void)state;
-    assert_int_equal(scale_of_noise(1), 8);
-    assert_int_equal(scale_of_noise(0), 1);
+    for (int kept = 0; kept < 2; kept++) {
+        RetexSet *set = whole_set(1, 1);
+        uint32_t seed = 17;
+        set->denoised = 1;
+        for (int i = 1; i < set->nterms; i++)
+            for (int y = 0; y < HIGH; y++)
+                for (int x = 0; x < WIDE; x++) {
+                    const float mean = set->terms[i].nfactors > 1 ? 0.06f : 0.3f;
+                    const float light = mean * (1 + 0.5f * (float)(test_random(&seed) - 0.5));
+                    put_rgb(set, set->terms[i].radiance, x, y, light, light, light);
+                }
+        assert_int_equal(scale_of_gains(set, kept ? 0 : 1), kept ? 1 : 8);
+    }
 }
 
 /* ---- the tiles that are tried ---- */
 
-enum { SIDE = 64, TILES = 64, FROM = 16 /* of a tile among those that are tried */ };
+enum { SIDE = 64, TILES = 64, MARGIN = 16 /* around each tile that is tried */ };
 
 /* Tiles side by side, whose light is their number; the last ones show places far apart in neighbouring pixels. */
 static RetexSet *set_of_tiles(int difficult)
@@ -133,10 +127,10 @@ static void tried_tiles(int numbers[RETEX_COMPACT_TILES], double weights[RETEX_C
     test_must(retex_compact_light_open(&light, set, 0, &unknown, &err), &err);
     assert_null(unknown);
     test_must(retex_compact_reference_open(&reference, &light, 2, &err), &err);
-    assert_int_equal(reference.tile, SIDE + 2 * FROM);
-    const int part = reference.set->terms[1].radiance, margin = FROM + SIDE / 2;
+    assert_int_equal(reference.tile, SIDE + 2 * MARGIN);
+    const int part = reference.set->terms[1].radiance, middle = MARGIN + SIDE / 2;
     for (int k = 0; k < RETEX_COMPACT_TILES; k++) {
-        numbers[k] = (int)*pixel(reference.set, part, margin, k * reference.tile + margin) - 1;
+        numbers[k] = (int)*pixel(reference.set, part, middle, k * reference.tile + middle) - 1;
         weights[k] = reference.weights[k];
     }
     retex_compact_reference_close(&reference);
