@@ -40,10 +40,10 @@ class Nginx:
                 raise RuntimeError(f"tools/serve/nginx.conf: no `{found}`")
             text = text.replace(found, replaced)
         if uploads:  # the part that is a comment
-            text, count = re.subn(r"^    # location = /v1/uploads \{\n(    # .*\n)*?    # \}\n",
-                                  lambda part: re.sub("^    # ", "    ", part[0], flags=re.M), text, flags=re.M)
+            text, count = re.subn(r"(?<=    # With --uploads of retex-serve:\n)(    # .*\n)+",
+                                  lambda part: re.sub("^    # ", "    ", part[0], flags=re.M), text)
             if count != 1:
-                raise RuntimeError("tools/serve/nginx.conf: no `location = /v1/uploads` in a comment")
+                raise RuntimeError("tools/serve/nginx.conf: no location of uploads in a comment")
         temporary = "".join(f"{name}_temp_path {folder}/{name};\n" for name in
                             ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
         user = "user root;\n" if os.geteuid() == 0 else ""
