@@ -65,10 +65,10 @@ class Server:
         return found
 
     def rest(self, seconds=60):
-        """Wait until neither it nor its tools compute."""
+        """Wait until neither it nor its tools have computed for as long as the test will look."""
         before, end = self.ticks(), time.time() + seconds
         while time.time() < end:
-            time.sleep(2)
+            time.sleep(5)
             now = self.ticks()
             if now - before <= 1:
                 return
