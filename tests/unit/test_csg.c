@@ -333,7 +333,8 @@ static int check_ray(const Scene *scene, const Accel *accel, const Ray *ray, Hit
     at = reference(ray, doubt, &doubtful);
     if (found != accel_occluded(accel, ray, RAY_SHADOW, 0))
         complain(ray, "accel_intersect and accel_occluded differ", found, !found);
-    if (found && at < ncrossings && fabs(crossings[at].t - hit->t) < doubt &&
+    /* far along an open surface, places are as exact as the distance */
+    if (found && at < ncrossings && fabs(crossings[at].t - hit->t) < fmax(doubt, NEAR * crossings[at].t) &&
         crossings[at].leaf->number == hit->primitive) {
         Surface s;
         hits++;
