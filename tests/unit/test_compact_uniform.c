@@ -15,17 +15,26 @@ static const RetexFootprint *whole_of(const RetexSet *compact)
     return f;
 }
 
-/* The mean u of a pixel's clusters; 0 where it is whole. */
-static float mean_of_clusters(const RetexSet *compact, int x, int y)
+/* A pixel's clusters as one: their mean and variances with their weights; 0 where it is whole. */
+static RetexUvStats all_clusters(const RetexSet *compact, int x, int y, int *count)
 {
-    float mean = 0;
+    static const int none[2] = {0};
+    RetexUvStats sum = {.weight = 0};
+    *count = 0;
     for (int k = 0; k < compact->nfootprints - 1; k++) {
         char name[] = "weight_T0_sharp1";
+        RetexUvStats place;
+        const RetexFootprint *f = &compact->footprints[k];
+        const float *uv = pixel(compact, f->uv, x, y);
         name[sizeof name - 2] = (char)('1' + k);
-        mean += *pixel(compact, retex_set_find_part(compact, name), x, y) *
-                pixel(compact, compact->footprints[k].uv, x, y)[0];
+        if (!(uv[2] > 0))
+            continue;
+        retex_uv_stats_load(&place, (double)*pixel(compact, retex_set_find_part(compact, name), x, y), uv,
+                            pixel(compact, f->spread, x, y));
+        retex_uv_stats_merge(&sum, &place, none);
+        ++*count;
     }
-    return mean;
+    return sum;
 }
 
 /* How many pixels of a wall are whole once compact, and how many of those at x = 20 are where the set says. */
@@ -40,12 +49,13 @@ static int whole_pixels_of_wall(float noise, int samples, int *off)
     for (int y = 0; y < HIGH; y++)
         for (int x = 0; x < WIDE; x++) {
             const float *uv = pixel(compact, f->uv, x, y), *axes = pixel(compact, f->spread, x, y);
-            const float mean = mean_of_clusters(compact, x, y);
-            *off += x == 20 && fabsf(mean / step - (float)x + 0.1f) < 0.04f;
+            int clusters;
+            const double mean = all_clusters(compact, x, y, &clusters).mean[0];
+            *off += x == 20 && fabs(mean / (double)step - x + 0.1) < 0.04;
             count += uv[2] > 0 && fabsf(uv[0] / step - (float)x) < 0.012f + noise / 10 &&
                      fabsf(uv[1] / step - (float)y) < 0.012f + noise / 10 &&
                      fabsf(axes[0] / step - 1) < 0.02f + noise / 8 && fabsf(axes[3] / step - 1) < 0.02f + noise / 8 &&
-                     *pixel(compact, weight, x, y) == 1 && mean == 0;
+                     *pixel(compact, weight, x, y) == 1 && clusters == 0;
         }
     retex_set_close(&set);
     retex_set_close(&compact);
@@ -80,7 +90,7 @@ static void chance_is_of_each_pixels_samples(void **state)
     enum { OFF = 20, ROWS = HIGH / 2, NEAR = 2 /* rows that see both sorts */ };
     const float step = 1.0f / 64;
     RetexSet *set = set_of_wall(0.4f, 20), *fine = set_of_wall(0.056f, 1024);
-    int whole = 0;
+    int whole = 0, count;
     (void)state;
     for (int i = 0; i < set->nparts; i++) {
         RetexImage *to = &set->parts[i].image;
@@ -92,7 +102,7 @@ static void chance_is_of_each_pixels_samples(void **state)
         whole += pixel(compact, whole_of(compact)->uv, OFF, y)[2] > 0;
     assert_true(whole > (ROWS - NEAR) * 3 / 4);
     for (int y = ROWS + NEAR; y < HIGH; y++)
-        assert_float_equal(mean_of_clusters(compact, OFF, y) / step, OFF - 0.1f, 0.05f);
+        assert_float_equal(all_clusters(compact, OFF, y, &count).mean[0] / (double)step, OFF - 0.1, 0.05);
     retex_set_close(&set);
     retex_set_close(&fine);
     retex_set_close(&compact);
@@ -199,28 +209,6 @@ static RetexSet *set_of_quadrants(void)
             put_rgb(set, light_part(set, 0), x, y, 10, 10, 10);
         }
     return set;
-}
-
-/* A pixel's clusters as one: their mean and variances with their weights. */
-static RetexUvStats all_clusters(const RetexSet *compact, int x, int y, int *count)
-{
-    static const int none[2] = {0};
-    RetexUvStats sum = {.weight = 0};
-    *count = 0;
-    for (int k = 0; k < compact->nfootprints - 1; k++) {
-        char name[] = "weight_T0_sharp1";
-        RetexUvStats place;
-        const RetexFootprint *f = &compact->footprints[k];
-        const float *uv = pixel(compact, f->uv, x, y);
-        name[sizeof name - 2] = (char)('1' + k);
-        if (!(uv[2] > 0))
-            continue;
-        retex_uv_stats_load(&place, (double)*pixel(compact, retex_set_find_part(compact, name), x, y), uv,
-                            pixel(compact, f->spread, x, y));
-        retex_uv_stats_merge(&sum, &place, none);
-        ++*count;
-    }
-    return sum;
 }
 
 /* They stay as they are, with the share of their light, but where their axes are not the steps to their neighbours:

@@ -23,6 +23,7 @@
 #include "shape/shape.h"
 
 #define NEAR 1e-8
+#define ROUNDING 1e-10 /* of a distance, where that is far more than the tree's size */
 
 enum { SCENES = 300, RAYS = 60, CROSSINGS_MOST = 16384, CROSSINGS_EACH = 60 };
 
@@ -333,8 +334,7 @@ static int check_ray(const Scene *scene, const Accel *accel, const Ray *ray, Hit
     at = reference(ray, doubt, &doubtful);
     if (found != accel_occluded(accel, ray, RAY_SHADOW, 0))
         complain(ray, "accel_intersect and accel_occluded differ", found, !found);
-    /* far along an open surface, places are as exact as the distance */
-    if (found && at < ncrossings && fabs(crossings[at].t - hit->t) < fmax(doubt, NEAR * crossings[at].t) &&
+    if (found && at < ncrossings && fabs(crossings[at].t - hit->t) < fmax(doubt, ROUNDING * crossings[at].t) &&
         crossings[at].leaf->number == hit->primitive) {
         Surface s;
         hits++;

@@ -37,7 +37,7 @@ def main():
         print(f"# the photograph is seen {time.time() - begin:.1f} s after it was dropped")
         result(lies, "a photograph of one's own is dropped on the floor")
         page.shot("newcomer")
-        u, v = page.run(f"(t => {ROOM}.scaleOf(t, {ROOM}.textures[t]))({ROOM}.targets.indexOf('Floor'))")
+        u, v = page.run(f"{ROOM}.scaleOf({ROOM}.targets.indexOf('Floor'))")
         subprocess.run(["retex-combine", "-q", f"{work}/room.exr", f"--texture:scale={u},{v}", f"Floor={photo}", "-o",
                         f"{work}/combined.png"], check=True)
         decibels = psnr(f"{work}/combined.png", f"{work}/mine.png")
