@@ -1,6 +1,6 @@
 """Checks a folder that retex-pack --web wrote, whose messages are standard input: files.py FOLDER. Sizes and checksums
-are those of the manifest and of those of smaller rooms, the sizes that were printed are the files', and there are no other
-files than the player's."""
+are those of the manifest and of those of smaller rooms, each file is named once, the sizes that were printed are the files',
+and there are no other files than the player's."""
 import json
 import os
 import re
@@ -21,6 +21,7 @@ for smaller in room.get("smaller", []):
         other = json.load(file)
     assert (other["width"], other["height"], other["id"]) == (smaller["width"], smaller["height"], room["id"])
     entries += [smaller, *files_of(other)]
+assert len({e["file"] for e in entries}) == len(entries), sorted(e["file"] for e in entries)
 for entry in entries:
     with open(f"{folder}/{entry['file']}", "rb") as file:
         data = file.read()

@@ -110,11 +110,13 @@ static void list_images(Web *web)
     for (int i = 0; i < m->ngroups; i++)
         if (is_light(web, m->groups[i].light) < 0)
             web->light_parts[web->nlights++] = m->groups[i].light;
-    for (int i = 0; i < m->nclasses; i++)
-        if (m->classes[i].scale == 1)
-            web->light_parts[web->nlights++] = m->classes[i].albedo;
-        else
-            web->reduced.tiles[web->reduced.ntiles++].part = m->classes[i].albedo;
+    for (int i = 0; i < m->nclasses; i++) {
+        const int albedo = m->classes[i].albedo;
+        if (m->classes[i].scale > 1)
+            web->reduced.tiles[web->reduced.ntiles++].part = albedo;
+        else if (is_light(web, albedo) < 0) /* whole pixels have that of sharp ones */
+            web->light_parts[web->nlights++] = albedo;
+    }
     for (int i = 0; i < m->nterms; i++) {
         Atlas *atlas = m->terms[i].lamp < 0 ? &web->reduced : &web->lamps;
         if (m->terms[i].gain >= 0 && tile_of(atlas, m->terms[i].gain) < 0)
