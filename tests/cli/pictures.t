@@ -9,6 +9,9 @@ $ /usr/bin/python3 "$TESTS/pictures.py" damaged 2 1
 $ wc -l <shares.txt
 > 23
 $ /usr/bin/python3 "$TESTS/pictures.py" accepted 1 2
+$ make_digests -a damaged/dpx-10@cut-5.dpx damaged/zfile@cut-5.zfile
+> damaged/dpx-10@cut-5.dpx refused -3 cannot read: the file is truncated
+> damaged/zfile@cut-5.zfile refused -3 cannot read: the file is truncated
 
 # A JPEG that is cut in half with one byte too many, and one with zeros in its coded data: refused by name, or read
 # with a warning.

@@ -70,8 +70,9 @@ OpenPicture::OpenPicture(const RetexBridgeHost *host, const RetexBridgeFile &fil
     check_file(file);
     const std::string damage = find_damage(host, file);
     const char *format = format_by_content(file);
-    // OpenImageIO's readers of these print errors, end the process, or make room for what is not there
-    static const std::set<std::string> refused = {"png", "ico", "iff", "openexr"};
+    // OpenImageIO's readers of these print errors, end the process, make room for what is not there, or (DPX and Zfile)
+    // give what was in memory before in place of missing pixels
+    static const std::set<std::string> refused = {"png", "ico", "iff", "openexr", "dpx", "zfile"};
     if (!damage.empty() && format && refused.count(format))
         throw Failure(RETEX_EFORMAT, "cannot read: " + damage);
     note(damage);
