@@ -248,16 +248,19 @@ $ for f in strings arrays; do
 +         make_peak peak retex-render --safe --plain $f.pov -o x.exr
 +         retex-render --safe --max-memory 300M --plain $f.pov -o x.exr
 +         RETEX_SAFE=1 RETEX_MAX_MEMORY=200M retex-render --plain $f.pov -o x.exr
++         echo $?
 +     } 2>&1 | sed 's/error: out of memory: this/error: '$f.pov:1:1:' the scene/; s/1:[0-9]*:/1:N:/'
 +     awk '{ print ($1 < 2200 ? "below the limit" : $1) }' peak
 + done
 > retex-render: error: strings.pov:1:N: the scene takes more than the 2048 MB of --max-memory
 > retex-render: error: strings.pov:1:N: the scene takes more than the 300 MB of --max-memory
 > retex-render: error: strings.pov:1:N: the scene takes more than the 200 MB of --max-memory
+> 2
 > below the limit
 > retex-render: error: arrays.pov:1:N: the scene takes more than the 2048 MB of --max-memory
 > retex-render: error: arrays.pov:1:N: the scene takes more than the 300 MB of --max-memory
 > retex-render: error: arrays.pov:1:N: the scene takes more than the 200 MB of --max-memory
+> 2
 > below the limit
 $ for o in '--safe' '--safe --max-pixels 40000000' '--max-pixels 268435456 --safe' ''; do
 +     retex-render -q $o --plain --spp 1 --max-time 0.1 --size 7680x4321 ball.pov -o x.exr 2>&1 | cut -c-60
