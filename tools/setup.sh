@@ -186,8 +186,8 @@ config() {
     # for retex.pc, so that others can link the static library
     echo "LIBRETEX_REQUIRES := $modules"
     echo "LIBRETEX_PRIVATE_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR) $exr_core -ldl -lm -pthread"
-    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate libavif libjxl)"
-    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate libavif libjxl)"
+    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate zlib libavif libjxl)"
+    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate zlib libavif libjxl)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"
     echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp draco) -lmeshoptimizer -lstdc++"
     echo "SERVE_CFLAGS := $(cflags libmicrohttpd nettle)"

@@ -9,6 +9,7 @@ $ /usr/bin/python3 "$TESTS/pictures.py" damaged 2 1
 $ wc -l <shares.txt
 > 23
 $ /usr/bin/python3 "$TESTS/pictures.py" accepted 1 2
+> pictures
 $ make_digests -a damaged/dpx-10@cut-5.dpx damaged/zfile@cut-5.zfile
 > damaged/dpx-10@cut-5.dpx refused -3 cannot read: the file is truncated
 > damaged/zfile@cut-5.zfile refused -3 cannot read: the file is truncated

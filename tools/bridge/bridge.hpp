@@ -29,11 +29,17 @@ int guarded(const char *path, RetexError *err, const std::function<void()> &body
 
 using Bytes = std::vector<unsigned char>;
 
+// Pixels of a picture as its file stores it; it may reach over the picture's edge.
+struct Area {
+    uint32_t x, y, width, height;
+};
+
 // What is damaged in a file, as far as its structure and checksums say, or "". All of them throw Failure.
 std::string find_damage(const RetexBridgeHost *host, const RetexBridgeFile &file);
 // What the libraries warn of while they decode all pixels, or "".
 std::string find_jpeg_damage(const RetexBridgeHost *host, const RetexBridgeFile &file);
-std::string find_tiff_damage(const RetexBridgeFile &file);
+// lost: gets the areas of pixels that are not in the file, where damage is accepted.
+std::string find_tiff_damage(const RetexBridgeFile &file, std::vector<Area> &lost);
 std::string find_targa_damage(const RetexBridgeFile &file);
 // The same of the bytes of a whole file.
 std::string check_structure(const RetexBridgeHost *host, const std::string &format, long max_pixels, const Bytes &data);

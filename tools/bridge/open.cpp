@@ -140,7 +140,7 @@ void OpenPicture::check_pixels()
     if (format == "jpeg")
         note(find_jpeg_damage(host_, file_));
     else if (format == "tiff")
-        note(find_tiff_damage(file_));
+        note(find_tiff_damage(file_, lost_));
     else if (format == "targa")
         note(find_targa_damage(file_));
 }

@@ -4,6 +4,8 @@
 
 #include "bridge.hpp"
 
+#include <algorithm>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -34,6 +36,16 @@ class OpenPicture
     void check_pixels();
     // To be called after pixels were read, or not.
     void check_read(bool is_read);
+    // Make the pixels that are not in the file zero: values of `channels` a pixel, of the rows from y0 on to y1.
+    template <typename Value> void blank_lost(Value *values, int y0, int y1, int channels) const
+    {
+        const long width = in_->spec().width;
+        for (const Area &area : lost_) {
+            const long x0 = std::min<long>(area.x, width), x1 = std::min<long>(x0 + area.width, width);
+            for (long y = std::max<long>(area.y, y0); y < std::min<long>(long(area.y) + area.height, y1); y++)
+                std::fill_n(values + ((y - y0) * width + x0) * channels, (x1 - x0) * channels, Value(0));
+        }
+    }
     // What is damaged in a file that is read all the same, or "".
     const std::string &damage() const
     {
@@ -49,6 +61,7 @@ class OpenPicture
     const RetexBridgeFile &file_;
     Chunks chunks_;
     std::string damage_;
+    std::vector<Area> lost_;
     std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
     std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
     std::unique_ptr<OIIO::ImageInput> in_; // last member: destroyed first

@@ -175,6 +175,7 @@ void read_channels(OpenPicture &in, const OIIO::ImageSpec &spec, const Channels 
     }
     in.check_read(
         in->read_image(0, 0, first, last, OIIO::TypeDesc::FLOAT, data, OIIO::stride_t(stride * sizeof(float))));
+    in.blank_lost(data, 0, spec.height, stride);
     OIIO::parallel_for(0, image.height, [&](int y) {
         for (size_t i = size_t(y) * image.width, end = i + image.width; i < end; i++) {
             float value[4];
@@ -399,6 +400,7 @@ void read_levels(OpenPicture &in, const OIIO::ImageSpec &spec, const Channels &c
                         ? in->read_image(0, 0, first, last, type, rows.data())
                         : in->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
         in.check_read(read);
+        in.blank_lost(rows.data(), y, end, count);
         OIIO::parallel_for_chunked(0, end - y, 16, [&](int64_t begin, int64_t stop) {
             for (int64_t i = begin; i < stop; i++)
                 convert_row(rows.data() + size_t(i) * spec.width * count, count, channels, first, table.data(),

@@ -1,5 +1,6 @@
-// What libtiff says while it decodes the pixels of a file's first picture. OpenImageIO's reader drops most of it, and
-// inflates strips itself without looking at the result.
+// What libtiff says while it decodes the pixels of a file's first picture, and which pixels it cannot decode.
+// OpenImageIO's reader drops most of the messages, inflates strips itself without looking at the result, and gives what
+// memory held before in place of pixels that a strip or tile lacks.
 #include "bridge.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <sys/stat.h>
 #include <tiffio.h>
 #include <unistd.h>
+#include <zlib.h>
 
 namespace bridge
 {
@@ -98,6 +100,18 @@ class Blocks
         bytes = tiled_ ? TIFFTileSize(tiff) : TIFFStripSize(tiff);
         in_plane_ = std::max<uint32_t>(1, planar == PLANARCONFIG_SEPARATE && samples > 0 ? count / samples : count);
         TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+        TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width_);
+        TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height_);
+        block_width_ = width_;
+        TIFFGetFieldDefaulted(tiff, tiled_ ? TIFFTAG_TILELENGTH : TIFFTAG_ROWSPERSTRIP, &block_height_);
+        if (tiled_)
+            TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &block_width_);
+        uint16_t photometric = PHOTOMETRIC_RGB, across = 1;
+        TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+        if (photometric == PHOTOMETRIC_YCBCR)
+            TIFFGetFieldDefaulted(tiff, TIFFTAG_YCBCRSUBSAMPLING, &across, &rows_together_);
+        block_width_ = std::max<uint32_t>(1, block_width_);
+        block_height_ = std::max<uint32_t>(1, tiled_ ? block_height_ : std::min(block_height_, height_));
     }
     // Whether the bytes of all blocks, which are not compressed, are in the file.
     bool are_inside(uint64_t file_size) const
@@ -116,33 +130,79 @@ class Blocks
     {
         if (!pixels_)
             pixels_.reset(new char[size_t(bytes)]);
-        if (compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE)
-            return inflate(index);
-        return (tiled_ ? TIFFReadEncodedTile(tiff_, index, pixels_.get(), bytes)
-                       : TIFFReadEncodedStrip(tiff_, index, pixels_.get(), bytes)) >= 0;
+        return is_deflated() ? inflate(index) : decode_by_libtiff(index);
+    }
+    // The pixels of a damaged block that are not in the file: all but the rows at the top that are decoded.
+    Area find_lost(uint32_t index)
+    {
+        const uint32_t place = index % in_plane_, across = (width_ - 1) / block_width_ + 1;
+        Area lost{place % across * block_width_, place / across * block_height_, block_width_, block_height_};
+        const tmsize_t row = std::max<tmsize_t>(1, tiled_ ? TIFFTileRowSize(tiff_) : TIFFScanlineSize(tiff_));
+        auto kept = uint32_t(std::min<tmsize_t>(count_decoded(index) / row, block_height_));
+        kept -= kept % std::max<uint16_t>(1, rows_together_);
+        lost.y += kept;
+        lost.height -= kept;
+        return lost;
     }
     uint32_t count;
     tmsize_t bytes; // of one
     uint16_t compression = COMPRESSION_NONE;
 
   private:
-    // libtiff does not look at the checksum. More data than pixels are no damage.
-    bool inflate(uint32_t index)
+    bool is_deflated() const
+    {
+        return compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE;
+    }
+    // As they are in the file, to coded_; returns their number, or less than 0.
+    tmsize_t read_coded(uint32_t index)
     {
         const uint64_t stored = TIFFGetStrileByteCount(tiff_, index);
-        if (!inflater_)
-            inflater_.reset(libdeflate_alloc_decompressor());
-        if (!inflater_ || stored > uint64_t(INT32_MAX))
+        if (stored > uint64_t(INT32_MAX))
             throw std::bad_alloc();
         coded_.resize(size_t(stored));
-        const tmsize_t got = tiled_ ? TIFFReadRawTile(tiff_, index, coded_.data(), tmsize_t(stored))
-                                    : TIFFReadRawStrip(tiff_, index, coded_.data(), tmsize_t(stored));
+        return tiled_ ? TIFFReadRawTile(tiff_, index, coded_.data(), tmsize_t(stored))
+                      : TIFFReadRawStrip(tiff_, index, coded_.data(), tmsize_t(stored));
+    }
+    bool decode_by_libtiff(uint32_t index)
+    {
+        return (tiled_ ? TIFFReadEncodedTile(tiff_, index, pixels_.get(), bytes)
+                       : TIFFReadEncodedStrip(tiff_, index, pixels_.get(), bytes)) >= 0;
+    }
+    // Bytes at the beginning of a block that OpenImageIO's reader gives, whatever memory held before. It lets libtiff
+    // decode, or inflates by zlib.
+    tmsize_t count_decoded(uint32_t index)
+    {
+        std::fill_n(pixels_.get(), bytes, char(0));
+        decode_by_libtiff(index);
+        const std::vector<char> decoded(pixels_.get(), pixels_.get() + bytes);
+        std::fill_n(pixels_.get(), bytes, char(-1));
+        decode_by_libtiff(index);
+        const auto count =
+            tmsize_t(std::mismatch(decoded.begin(), decoded.end(), pixels_.get()).first - decoded.begin());
+        if (!is_deflated())
+            return count;
+        const tmsize_t got = read_coded(index);
+        uLongf inflated = uLongf(bytes);
+        if (got > 0)
+            uncompress(reinterpret_cast<unsigned char *>(pixels_.get()), &inflated, coded_.data(), uLong(got));
+        return got > 0 ? std::min(count, tmsize_t(inflated)) : 0;
+    }
+    // libtiff does not look at the checksum. More data than pixels are no damage, unless libtiff leaves pixels out,
+    // which are in a run that goes on beyond the block.
+    bool inflate(uint32_t index)
+    {
+        if (!inflater_)
+            inflater_.reset(libdeflate_alloc_decompressor());
+        if (!inflater_)
+            throw std::bad_alloc();
+        const tmsize_t got = read_coded(index);
         size_t inflated = 0;
         const auto result = got < 0 ? LIBDEFLATE_BAD_DATA
                                     : libdeflate_zlib_decompress(inflater_.get(), coded_.data(), size_t(got),
                                                                  pixels_.get(), size_t(bytes), &inflated);
-        return result == LIBDEFLATE_INSUFFICIENT_SPACE ||
-               (result == LIBDEFLATE_SUCCESS && (may_be_short(index) || inflated == size_t(bytes)));
+        if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
+            return count_decoded(index) == bytes;
+        return result == LIBDEFLATE_SUCCESS && (may_be_short(index) || inflated == size_t(bytes));
     }
     // The last strip of a plane.
     bool may_be_short(uint32_t index) const
@@ -153,6 +213,8 @@ class Blocks
     TIFF *tiff_;
     bool tiled_;
     uint32_t in_plane_; // blocks
+    uint32_t width_ = 1, height_ = 1, block_width_ = 1, block_height_ = 1;
+    uint16_t rows_together_ = 1; // that have their chroma in common
     std::unique_ptr<char[]> pixels_;
     std::vector<unsigned char> coded_;
     std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor *)> inflater_;
@@ -160,7 +222,7 @@ class Blocks
 
 } // namespace
 
-std::string find_tiff_damage(const RetexBridgeFile &file)
+std::string find_tiff_damage(const RetexBridgeFile &file, std::vector<Area> &lost)
 {
     auto stream = open_file(file);
     struct stat status;
@@ -173,18 +235,25 @@ std::string find_tiff_damage(const RetexBridgeFile &file)
     if (!tiff)
         return "";
     Blocks blocks(tiff.get());
+    std::string damage;
     if (!source.damage.empty())
-        return "the file is truncated: " + source.damage;
+        damage = "the file is truncated: " + source.damage;
     if (blocks.bytes <= 0)
-        return "";
+        return damage;
     if (blocks.compression == COMPRESSION_NONE)
-        return blocks.are_inside(uint64_t(source.size)) ? "" : "the file is truncated";
+        return !damage.empty() || blocks.are_inside(uint64_t(source.size)) ? damage : "the file is truncated";
     source.reads_pixels = true;
-    for (uint32_t i = 0; i < blocks.count && source.damage.empty(); i++)
-        if (!blocks.decode(i) && source.damage.empty())
-            source.damage = "a strip or tile of its pixels cannot be decoded";
+    for (uint32_t i = 0; i < blocks.count && (damage.empty() || file.accept_damaged); i++) {
+        source.damage.clear();
+        const bool is_whole = blocks.decode(i) && source.damage.empty();
+        if (!is_whole && damage.empty())
+            damage = "the file is damaged: " +
+                     (source.damage.empty() ? "a strip or tile of its pixels cannot be decoded" : source.damage);
+        if (!is_whole && file.accept_damaged)
+            lost.push_back(blocks.find_lost(i));
+    }
     source.reads_pixels = false; // closing says nothing of them
-    return source.damage.empty() ? "" : "the file is damaged: " + source.damage;
+    return damage;
 }
 
 } // namespace bridge
