@@ -5,6 +5,7 @@ A mutant that no named test notices fails, and so does one that does not compile
 MUTANTS chooses: `all`; `tenth`, the default, those whose turn it is on the day of the last commit, so that ten days see
 all; or names. A test counts only if it passes without a mutant, which is tried once a test; with `tenth` it is taken as
 known from `make check`. Trees with builds of their own lie in $BUILD/mutants, JOBS of them side by side.
+MUTANT_MINUTES=N begins no mutant after that time: the rest is skipped, in another order each day.
 $BUILD/mutants/results keeps what was found, so that a run that was stopped goes on; it counts as long as the sources are
 the same.
 
@@ -19,6 +20,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -213,6 +215,10 @@ def judge(tree, mutant, sound=None):
         os.utime(path, (before.st_atime, os.stat(path).st_mtime))
 
 
+def digest(text):
+    return int(hashlib.sha256(text.encode()).hexdigest(), 16)
+
+
 def choose(mutants):
     """By MUTANTS."""
     wanted = os.environ.get("MUTANTS") or "tenth"
@@ -220,9 +226,10 @@ def choose(mutants):
         return mutants
     if wanted == "tenth":
         seconds = subprocess.check_output(["git", "show", "-s", "--format=%ct", "HEAD"], cwd=ROOT)
-        turn = int(seconds) // 86400 % 10
-        return [m for m in mutants if int(hashlib.sha256(m.name.encode()).hexdigest(), 16) % 10 == turn
+        day = int(seconds) // 86400
+        turn = [m for m in mutants if digest(m.name) % 10 == day % 10
                 and not any(test.startswith("long/") for test in m.tests)]  # those need `make check-all`'s programs
+        return sorted(turn, key=lambda mutant: digest(f"{day} {mutant.name}"))
     unknown = set(wanted.split()) - {m.name for m in mutants}
     if unknown:
         sys.exit("no such mutant: " + " ".join(sorted(unknown)))
@@ -252,11 +259,16 @@ def main():
     for number in range(min(int(os.environ.get("JOBS") or 2), len(fresh))):
         trees.put(make_tree(number, names))
 
+    minutes = float(os.environ.get("MUTANT_MINUTES") or "inf")
+    end = time.monotonic() + 60 * minutes
+
     def work(mutant):
         if mutant.equivalent:
             return True, "equivalent: " + mutant.equivalent
         if mutant.name in known:
             return True, known[mutant.name]
+        if time.monotonic() > end:
+            return True, f"# SKIP not begun within {minutes:g} minutes"
         tree = trees.get()
         try:
             passed, told = judge(tree, mutant, sound)
