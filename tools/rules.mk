@@ -82,7 +82,7 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 # What a page loads is one script, which esbuild makes of its first module and all that this imports. The comment at the
 # module's head is the script's. The rule of a script has the module first, then the others.
 BUNDLE = esbuild --bundle $< --minify --charset=utf8 --legal-comments=none --banner:$(subst .,,$(suffix $@))="$$(sed '/\*\//q' $<)" \
-	--alias:colors=$(abspath $(BUILD)/gen/colors.js) --log-level=warning --outfile=$@
+	'--alias:colors=$(abspath $(BUILD)/gen/colors.js)' --log-level=warning --outfile=$@
 WEB_MODULES := $(wildcard tools/web/*.js) $(BUILD)/gen/colors.js
 $(BUILD)/gen/retex-room.js: tools/web/element.js $(WEB_MODULES) tools/rules.mk
 	$(SAY)$(BUNDLE) --format=esm

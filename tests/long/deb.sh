@@ -32,7 +32,7 @@ if [ -z "${DEB_FOLDER:-}" ]; then
     [ $status = 0 ] || { tail -n 20 "$work/log" | sed 's/^/# /'; finish; exit; }
     # Elsewhere, later, by another user's habits, and compiled anew.
     (umask 077 && LC_ALL=C.UTF-8 TZ=Pacific/Auckland HOME=/nonexistent CCACHE_DISABLE=1 nice tools/deb.sh \
-        "$work/a folder of another length/deb") >"$work/log" 2>&1
+        "$work/a folder of another length/deb") >"$work/log" 2>&1 || tail -n 20 "$work/log" | sed 's/^/# /'
     differ=$(cd "$deb" && for file in *.deb *.tar.* *.dsc; do
         cmp -s "$file" "$work/a folder of another length/deb/$file" || echo "$file"
     done)
