@@ -375,6 +375,49 @@ static void test_channels_are_on_their_own(void **state)
     }
 }
 
+/* Gives directions and positions ripples, and takes other axes. */
+static void ripple_guides(RetexSet *set, int turn)
+{
+    for (int k = 0; k < RETEX_FEATURE_COUNT; k++) {
+        const RetexFeatureInfo *info = retex_feature_info(k);
+        RetexImage *im = &set->parts[retex_set_find_part(set, info->name)].image;
+        if (info->kind != RETEX_FEATURE_KIND_NORMAL && info->kind != RETEX_FEATURE_KIND_POSITION)
+            continue;
+        for (int i = 0; i < im->width * im->height; i++) {
+            const float x = (float)(i % im->width), y = (float)(i / im->width), *old = im->pixels + 3 * i;
+            const float rippled[] = {old[0], old[1] + 0.2f * sinf(0.5f * x), old[2] + 0.3f * sinf(0.4f * y + 0.2f * x)};
+            for (int c = 0; c < 3; c++)
+                im->pixels[3 * i + (c + turn) % 3] = rippled[c];
+        }
+    }
+}
+
+/* Which axis is the first is no matter: each counts. */
+static void test_axes_are_alike(void **state)
+{
+    (void)state;
+    enum { WIDTH = 90, HEIGHT = 70 };
+    for (int k = 0; k < 3; k++) {
+        RetexSet *first = noisy_set(layouts[k], WIDTH, HEIGHT), *turned = noisy_set(layouts[k], WIDTH, HEIGHT);
+        ripple_guides(first, 0);
+        ripple_guides(turned, 1);
+        denoise_all(first, &denoise_exactly, 2);
+        denoise_all(turned, &denoise_exactly, 2);
+        const int beauty = retex_set_find_part(first, "beauty");
+        const float *a = first->parts[beauty].image.pixels, *b = turned->parts[beauty].image.pixels;
+        double most = 0, sum = 0;
+        for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+            most = fmax(most, fabs((double)a[i] - (double)b[i]));
+            sum += (double)a[i];
+        }
+        const double mean = sum / (3.0 * WIDTH * HEIGHT);
+        if (!(most < 1e-3 * mean))
+            fail_msg("%s: %g of a mean of %g", layouts[k], most, mean);
+        retex_set_close(&first);
+        retex_set_close(&turned);
+    }
+}
+
 /* ---- invalid sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
@@ -442,6 +485,7 @@ int main(void)
         cmocka_unit_test(test_rare_light_is_kept),
         cmocka_unit_test(test_channels_are_on_their_own),
         cmocka_unit_test(test_light_of_all_sizes),
+        cmocka_unit_test(test_axes_are_alike),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_sizes),
     };

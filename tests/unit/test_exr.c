@@ -205,6 +205,30 @@ static void test_parts_there_and_back(void **state)
 }
 
 /* Bands of 16 rows have checksums of their own, the last one too, which has the rows that are left. */
+/* As OpenEXR's library reads the header: other programs show the display window, at 0,0 and of the picture's size; the
+ * data window of a part is the part's own. */
+static void test_windows(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_t file = NULL;
+    make_parts(parts, images);
+    write_parts(parts, PARTS, 1, 1);
+    assert_int_equal(exr_start_read(&file, path, &settings), 0);
+    for (int i = 0; i < PARTS; i++) {
+        exr_attr_box2i_t display, data;
+        assert_int_equal(exr_get_display_window(file, i, &display), 0);
+        assert_int_equal(exr_get_data_window(file, i, &data), 0);
+        assert_true(display.min.x == 0 && display.min.y == 0 && display.max.x == 74 && display.max.y == 49);
+        assert_true(data.min.x == 0 && data.min.y == 0 && data.max.x == images[i].width - 1 &&
+                    data.max.y == images[i].height - 1);
+        retex_image_free(&images[i]);
+    }
+    exr_finish(&file);
+}
+
 static void test_checksums_of_bands(void **state)
 {
     (void)state;
@@ -630,6 +654,7 @@ int main(void)
         cmocka_unit_test(test_rounding_to_half),
         cmocka_unit_test(test_vector_equals_scalar),
         cmocka_unit_test(test_parts_there_and_back),
+        cmocka_unit_test(test_windows),
         cmocka_unit_test(test_checksums_of_bands),
         cmocka_unit_test(test_floats_of_24_bits),
         cmocka_unit_test(test_files_are_smaller_when_compressed),

@@ -192,6 +192,55 @@ static void filters_hide_by_version(void **state)
     }
 }
 
+/* POV-Ray's slope is of the normal that is turned to whoever looks: its picture has the first colour from below the
+ * plane, and the second from above. */
+static void slopes_are_turned_to_the_viewer(void **state)
+{
+    (void)state;
+    static const char *const textures[] = {
+        "pigment { slope z color_map { [0 rgb <.2,.4,.6>] [1 rgb <.9,.8,.7>] } }",
+        "texture { slope z texture_map { [0 pigment { rgb <.2,.4,.6> }] [1 pigment { rgb <.9,.8,.7> }] } }",
+    };
+    for (int k = 0; k < 2; k++)
+        for (int side = -1; side <= 1; side += 2) {
+            Scene *scene = plane("#version 3.7; global_settings { assumed_gamma 1 }", textures[k]);
+            const Ray ray = {vec3(.3, .4, 5 * side), {0, 0, -side}, 0, INFINITY};
+            const Hit hit = {.t = 5, .primitive = 0};
+            Rgb sum = {0, 0, 0};
+            shading_each_leaf(scene, NULL, &ray, &hit, add_seen, &sum);
+            assert_near(sum.r, side < 0 ? .2 : .9);
+            assert_near(sum.g, side < 0 ? .4 : .8);
+            assert_near(sum.b, side < 0 ? .6 : .7);
+            scene_close(&scene);
+        }
+}
+
+/* What denoising takes a surface for: what reflects or lets light through clearly is a mirror. */
+static void roughness_is_that_of_the_sharpest_lobe(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *texture;
+        double least, most;
+    } cases[] = {{"pigment { rgb 1 }", 1, 1},
+                 {"pigment { rgb 1 } finish { reflection .1 }", 0, 0},
+                 {"pigment { rgb 1 } finish { reflection { 0, .1 } }", 0, 0},
+                 {"pigment { rgbf <.5,.5,.5,.2> }", 0, 0},
+                 {"pigment { rgbt <.5,.5,.5,.2> }", 0, 0},
+                 {"pigment { rgb 1 } finish { diffuse .5 phong .3 phong_size 40 }", .2, .6}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const Ray ray = {vec3(0, 0, -5), {0, 0, 1}, 0, INFINITY};
+        const Hit hit = {.t = 5, .primitive = 0};
+        Shading s;
+        Scene *scene = plane("#version 3.7; global_settings { assumed_gamma 1 }", cases[k].texture);
+        shading_at(&s, scene, NULL, 1, &ray, &hit);
+        const double roughness = (double)shading_roughness(&s);
+        if (!(roughness >= cases[k].least && roughness <= cases[k].most))
+            fail_msg("%s: %g", cases[k].texture, roughness);
+        scene_close(&scene);
+    }
+}
+
 /* A filter beyond all numbers hides everything and shows nothing; still there is a leaf. */
 static void infinite_filters_are_black(void **state)
 {
@@ -219,6 +268,8 @@ int main(void)
         cmocka_unit_test(targets_count_by_geometry),
         cmocka_unit_test(textures_are_chosen_as_pigments),
         cmocka_unit_test(filters_hide_by_version),
+        cmocka_unit_test(slopes_are_turned_to_the_viewer),
+        cmocka_unit_test(roughness_is_that_of_the_sharpest_lobe),
         cmocka_unit_test(infinite_filters_are_black),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
