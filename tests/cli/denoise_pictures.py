@@ -151,7 +151,8 @@ def make():
     samples = np.array([noisy(s["Col"] * light, 100 + k, 1) for k in range(16)])
     variance = samples.var(0, ddof=1) / 16
     guides = {"N:XYZ": s["Normal"], "albedo": s["Col"], "P:XYZ": s["Position"], "variance": variance}
-    write("one.exr", {"": samples.mean(0) + s["Emit"], ":A": np.ones((HEIGHT, WIDTH, 1)), **guides}, "float")
+    write("one.exr", {"": samples.mean(0) + s["Emit"], ":A": np.ones((HEIGHT, WIDTH, 1)), **guides}, "float",
+          **{"an attribute with a name of more than 31 letters": 3})
     write("depth.exr", {"": samples.mean(0) + s["Emit"], "N:XYZ": s["Normal"], "albedo": s["Col"], ":Z": s["Depth"]},
           "float")
     write("bare.exr", {"": samples.mean(0) + s["Emit"]}, "float")

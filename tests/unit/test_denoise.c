@@ -418,6 +418,49 @@ static void test_axes_are_alike(void **state)
     }
 }
 
+/* Gives channels noise and colours of their own, and moves each by `turn`. */
+static void turn_colors(RetexSet *set, int turn)
+{
+    static const char *const guides[] = {"normal", "position", "material", "uv", "spread"};
+    for (int k = 0; k < set->nparts; k++) {
+        RetexImage *im = &set->parts[k].image;
+        int is_rgb = im->channels == 3;
+        for (size_t g = 0; g < sizeof guides / sizeof *guides; g++)
+            is_rgb = is_rgb && !strstr(set->parts[k].name, guides[g]);
+        for (int i = 0; is_rgb && i < im->width * im->height; i++) {
+            const float *old = im->pixels + 3 * i;
+            const float own[] = {old[0], old[1] * (i % 5 ? 1 : 3), old[2] * (i % 7 ? 0.5f : 6)};
+            for (int c = 0; c < 3; c++)
+                im->pixels[3 * i + (c + turn) % 3] = own[c];
+        }
+    }
+}
+
+/* Which colour is the first is no matter. */
+static void test_colors_are_alike(void **state)
+{
+    (void)state;
+    enum { WIDTH = 90, HEIGHT = 70 };
+    RetexSet *first = noisy_set("plain", WIDTH, HEIGHT), *turned = noisy_set("plain", WIDTH, HEIGHT);
+    turn_colors(first, 0);
+    turn_colors(turned, 1);
+    denoise_all(first, &denoise_exactly, 2);
+    denoise_all(turned, &denoise_exactly, 2);
+    const int beauty = retex_set_find_part(first, "beauty");
+    const float *a = first->parts[beauty].image.pixels, *b = turned->parts[beauty].image.pixels;
+    double most = 0, sum = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        for (int c = 0; c < 3; c++) {
+            most = fmax(most, fabs((double)a[3 * i + c] - (double)b[3 * i + (c + 1) % 3]));
+            sum += (double)a[3 * i + c];
+        }
+    const double mean = sum / (3.0 * WIDTH * HEIGHT);
+    if (!(most < 1e-3 * mean))
+        fail_msg("%g of a mean of %g", most, mean);
+    retex_set_close(&first);
+    retex_set_close(&turned);
+}
+
 /* ---- invalid sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
@@ -486,6 +529,7 @@ int main(void)
         cmocka_unit_test(test_channels_are_on_their_own),
         cmocka_unit_test(test_light_of_all_sizes),
         cmocka_unit_test(test_axes_are_alike),
+        cmocka_unit_test(test_colors_are_alike),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_sizes),
     };

@@ -241,6 +241,12 @@ static void roughness_is_that_of_the_sharpest_lobe(void **state)
     }
 }
 
+static void add_share(void *context, const SeenLeaf *seen)
+{
+    double *sum = context;
+    *sum += (double)seen->share;
+}
+
 /* A filter beyond all numbers hides everything and shows nothing; still there is a leaf. */
 static void infinite_filters_are_black(void **state)
 {
@@ -258,6 +264,9 @@ static void infinite_filters_are_black(void **state)
     const Leaf *leaf = leaves_choose(&leaves, 0.5, &weight);
     assert_int_equal(leaves.count, 1);
     assert_true(leaf->texture && leaf->target == -1 && leaf->above == -1 && weight == 0);
+    double sum = 0; /* it is all of the surface */
+    shading_each_leaf(scene, NULL, &ray, &hit, add_share, &sum);
+    assert_near(sum, 1);
     scene_close(&scene);
 }
 
