@@ -123,13 +123,18 @@ static void make_parts(RetexExrPart parts[PARTS], RetexImage images[PARTS])
     }
 }
 
-static void write_parts(RetexExrPart *parts, int count, int compress, int threads)
+static void write_to(const char *name, RetexExrPart *parts, int count, int compress, int threads)
 {
     RetexExrEncoding *encoding;
     RetexError err = {0};
     test_must(retex_exr_encode(&encoding, parts, count, compress, threads, &err), &err);
-    test_must(retex_exr_write(encoding, 75, 50, "note", "a text", path, &err), &err);
+    test_must(retex_exr_write(encoding, 75, 50, "note", "a text", name, &err), &err);
     retex_exr_encoding_free(&encoding);
+}
+
+static void write_parts(RetexExrPart *parts, int count, int compress, int threads)
+{
+    write_to(path, parts, count, compress, threads);
 }
 
 /* By the definition in set.h, of some rows. */
@@ -250,8 +255,36 @@ static void test_checksums_of_bands(void **state)
     retex_exr_encoding_free(&encoding);
 }
 
+/* The chunks of an open file's only part, copied into another file as they are. */
+static void check_copy(RetexExr *exr, const RetexExrPart *part)
+{
+    static const uint32_t bands[3];
+    char name[1100];
+    RetexExrRequest request = {.channels = {"R", "G", "B"}, .bands = bands};
+    RetexExrPlan plan = {0};
+    RetexExrStored stored;
+    RetexInput *input = NULL;
+    RetexExr *copy = NULL;
+    RetexError err = {0};
+    RetexImage shape = *part->image;
+    RetexExrPart of = *part;
+    shape.pixels = NULL;
+    of.image = &shape, of.stored = &stored, of.store = NULL;
+    snprintf(name, sizeof name, "%s-copy.exr", path);
+    test_must(retex_exr_plan_open(exr, &plan, &request, &err), &err);
+    assert_int_equal(retex_exr_stored_find(&stored, exr, &plan, part->type), 1);
+    write_to(name, &of, 1, 1, 2);
+    test_must(retex_input_open(&input, name, &err), &err);
+    test_must(retex_exr_open(&copy, input, &err), &err);
+    check_part(copy, part, 0, 2);
+    retex_exr_close(&copy);
+    retex_input_close(&input);
+    retex_exr_plan_close(&plan);
+    unlink(name);
+}
+
 /* Parts of floats of 24 bits are compressed by PXR24, which other readers know, and read without loss here and by
- * OpenEXRCore. One number of more bits makes the part ZIP. Both, from memory and from a band store. */
+ * OpenEXRCore. One number of more bits makes the part ZIP. Both, from memory, from a band store, and from a file. */
 static void test_floats_of_24_bits(void **state)
 {
     (void)state;
@@ -295,6 +328,7 @@ static void test_floats_of_24_bits(void **state)
         test_must(retex_input_open(&input, path, &err), &err);
         test_must(retex_exr_open(&exr, input, &err), &err);
         check_part(exr, &part, 0, 2);
+        check_copy(exr, &part);
         retex_exr_close(&exr);
         retex_input_close(&input);
         retex_band_store_close(&store);
