@@ -138,11 +138,10 @@ def judge(name, group, base, damage):
             print(f"{name}: read with other pixels")
 
 
-def blocks_of(data):
-    """Where the strips or tiles of a TIFF's first picture begin, and their bytes."""
+def tags_of(data):
+    """Of a TIFF's first picture, those of short and long numbers: tag, byte order, form, how many, and where."""
     order = "<" if data[:2] == b"II" else ">"
     at, = struct.unpack_from(order + "I", data, 4)
-    values = {}
     for entry in range(struct.unpack_from(order + "H", data, at)[0]):
         tag, kind, count = struct.unpack_from(order + "HHI", data, at + 2 + 12 * entry)
         size, letter = {3: (2, "H"), 4: (4, "I")}.get(kind, (0, ""))
@@ -150,7 +149,13 @@ def blocks_of(data):
         if size * count > 4:
             place, = struct.unpack_from(order + "I", data, place)
         if size:
-            values[tag] = struct.unpack_from(f"{order}{count}{letter}", data, place)
+            yield tag, order, letter, count, place
+
+
+def blocks_of(data):
+    """Where the strips or tiles of a TIFF's first picture begin, and their bytes."""
+    values = {tag: struct.unpack_from(f"{order}{count}{letter}", data, place)
+              for tag, order, letter, count, place in tags_of(data)}
     return list(zip(values.get(273) or values[324], values.get(279) or values[325]))
 
 
@@ -197,14 +202,7 @@ def overfill(data, path):
 
 def replace_block(data, at, size):
     """Where the first strip or tile is, in the tags of a TIFF."""
-    order = "<" if data[:2] == b"II" else ">"
-    tags, = struct.unpack_from(order + "I", data, 4)
-    for entry in range(struct.unpack_from(order + "H", data, tags)[0]):
-        tag, kind, count = struct.unpack_from(order + "HHI", data, tags + 2 + 12 * entry)
-        place = tags + 10 + 12 * entry
-        letter, width = {3: ("H", 2), 4: ("I", 4)}.get(kind, ("", 0))
-        if width * count > 4:
-            place, = struct.unpack_from(order + "I", data, place)
+    for tag, order, letter, _, place in tags_of(data):
         if tag in (273, 324, 279, 325):
             struct.pack_into(order + letter, data, place, at if tag in (273, 324) else size)
 

@@ -392,29 +392,35 @@ static void ripple_guides(RetexSet *set, int turn)
     }
 }
 
+/* Denoises both, which are closed; the picture of the second is that of the first, its channels moved by `turn`. */
+static void expect_alike(RetexSet *first, RetexSet *turned, int turn)
+{
+    denoise_all(first, &denoise_exactly, 2);
+    denoise_all(turned, &denoise_exactly, 2);
+    const int beauty = retex_set_find_part(first, "beauty"), pixels = first->width * first->height;
+    const float *a = first->parts[beauty].image.pixels, *b = turned->parts[beauty].image.pixels;
+    double most = 0, sum = 0;
+    for (int i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++) {
+            most = fmax(most, fabs((double)a[3 * i + c] - (double)b[3 * i + (c + turn) % 3]));
+            sum += (double)a[3 * i + c];
+        }
+    const double mean = sum / (3.0 * pixels);
+    if (!(most < 1e-3 * mean))
+        fail_msg("%g of a mean of %g", most, mean);
+    retex_set_close(&first);
+    retex_set_close(&turned);
+}
+
 /* Which axis is the first is no matter: each counts. */
 static void test_axes_are_alike(void **state)
 {
     (void)state;
-    enum { WIDTH = 90, HEIGHT = 70 };
     for (int k = 0; k < 3; k++) {
-        RetexSet *first = noisy_set(layouts[k], WIDTH, HEIGHT), *turned = noisy_set(layouts[k], WIDTH, HEIGHT);
+        RetexSet *first = noisy_set(layouts[k], 90, 70), *turned = noisy_set(layouts[k], 90, 70);
         ripple_guides(first, 0);
         ripple_guides(turned, 1);
-        denoise_all(first, &denoise_exactly, 2);
-        denoise_all(turned, &denoise_exactly, 2);
-        const int beauty = retex_set_find_part(first, "beauty");
-        const float *a = first->parts[beauty].image.pixels, *b = turned->parts[beauty].image.pixels;
-        double most = 0, sum = 0;
-        for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
-            most = fmax(most, fabs((double)a[i] - (double)b[i]));
-            sum += (double)a[i];
-        }
-        const double mean = sum / (3.0 * WIDTH * HEIGHT);
-        if (!(most < 1e-3 * mean))
-            fail_msg("%s: %g of a mean of %g", layouts[k], most, mean);
-        retex_set_close(&first);
-        retex_set_close(&turned);
+        expect_alike(first, turned, 0);
     }
 }
 
@@ -440,25 +446,10 @@ static void turn_colors(RetexSet *set, int turn)
 static void test_colors_are_alike(void **state)
 {
     (void)state;
-    enum { WIDTH = 90, HEIGHT = 70 };
-    RetexSet *first = noisy_set("plain", WIDTH, HEIGHT), *turned = noisy_set("plain", WIDTH, HEIGHT);
+    RetexSet *first = noisy_set("plain", 90, 70), *turned = noisy_set("plain", 90, 70);
     turn_colors(first, 0);
     turn_colors(turned, 1);
-    denoise_all(first, &denoise_exactly, 2);
-    denoise_all(turned, &denoise_exactly, 2);
-    const int beauty = retex_set_find_part(first, "beauty");
-    const float *a = first->parts[beauty].image.pixels, *b = turned->parts[beauty].image.pixels;
-    double most = 0, sum = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++)
-        for (int c = 0; c < 3; c++) {
-            most = fmax(most, fabs((double)a[3 * i + c] - (double)b[3 * i + (c + 1) % 3]));
-            sum += (double)a[3 * i + c];
-        }
-    const double mean = sum / (3.0 * WIDTH * HEIGHT);
-    if (!(most < 1e-3 * mean))
-        fail_msg("%g of a mean of %g", most, mean);
-    retex_set_close(&first);
-    retex_set_close(&turned);
+    expect_alike(first, turned, 1);
 }
 
 /* ---- invalid sets ---- */
