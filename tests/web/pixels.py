@@ -1,14 +1,18 @@
-"""Writes pictures as the tests in Node read them: pixels.py PICTURE OUTPUT [PICTURE OUTPUT]... Two numbers of four bytes,
-the size, then four bytes of each pixel, with alpha 255 where there is none."""
+"""Writes pictures as the tests in Node read them: pixels.py QUESTIONS ANSWERS, two pipes. A question is a line with a
+picture, a tab and the output: two numbers of four bytes, the size, then four bytes of each pixel, with alpha 255 where there
+is none. The answer is a line."""
 import struct
 import sys
 
-import numpy as np
-import OpenImageIO as oiio
+questions, answers = open(sys.argv[1], encoding="utf-8"), open(sys.argv[2], "wb", buffering=0)
+
+import numpy as np  # noqa: E402 a failure closes the pipes
+import OpenImageIO as oiio  # noqa: E402
 
 straight = oiio.ImageSpec()
 straight.attribute("oiio:UnassociatedAlpha", 1)  # colours are not multiplied by it
-for picture, output in zip(sys.argv[1::2], sys.argv[2::2]):
+for question in questions:
+    picture, output = question.rstrip("\n").split("\t")
     source = oiio.ImageInput.open(picture, straight)
     data = source.read_image(oiio.UINT8)
     source.close()
@@ -18,3 +22,4 @@ for picture, output in zip(sys.argv[1::2], sys.argv[2::2]):
         data = np.dstack([data, np.full(data.shape[:2], 255, np.uint8)])
     with open(output, "wb") as file:
         file.write(struct.pack("<II", data.shape[1], data.shape[0]) + data.tobytes())
+    answers.write(b"\n")

@@ -1,8 +1,8 @@
 /* Rooms that retex-pack wrote, drawn by the player's Renderer on webgl.mjs, and pictures to compare them with. All files are in
  * a folder of their own. */
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { createHash } from "node:crypto";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, openSync, readFileSync, readSync, rmSync, writeFileSync, writeSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { resolve } from "node:path";
 import { inflateSync } from "node:zlib";
@@ -16,18 +16,30 @@ export const tool = (name, ...args) => run(name.startsWith("/") ? name : new URL
 export const write = (name, text) => writeFileSync(`${folder}/${name}`, text);
 process.on("exit", () => rmSync(folder, { recursive: true }));
 
-/* Pictures as images of a page: rows of red, green, blue and alpha. A run of Python takes half a second: what has been read
- * once is kept by its bytes. */
+/* Pictures as images of a page: rows of red, green, blue and alpha. A run of Python takes half a second: one reads all
+ * pictures, and each once by its bytes. */
 const known = new Map();
+let pipes;
+function read(picture, output) {
+  if (!pipes) {
+    const names = ["questions", "answers"].map((name) => `${folder}/${name}.pipe`);
+    run("mkfifo", ...names);
+    spawn("/usr/bin/python3", ["-B", `${here}/pixels.py`, ...names], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] }).unref();
+    pipes = [openSync(names[0], "w"), openSync(names[1], "r")];
+  }
+  writeSync(pipes[0], `${picture}\t${output}\n`);
+  if (readSync(pipes[1], Buffer.alloc(1)) !== 1) throw new Error(`pixels.py cannot read ${picture}`);
+}
 export function images(names) {
-  const keys = names.map((name) => createHash("sha256").update(readFileSync(resolve(folder, name))).digest("hex")), unknown = [];
-  keys.forEach((key, i) => known.has(key) || unknown.push([key, names[i]]));
-  if (unknown.length) run("/usr/bin/python3", "-B", `${here}/pixels.py`, ...unknown.flatMap(([, name], i) => [name, `pixels-${i}`]));
-  unknown.forEach(([key], i) => {
-    const data = readFileSync(`${folder}/pixels-${i}`);
-    known.set(key, { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) });
+  return names.map((name) => {
+    const key = createHash("sha256").update(readFileSync(resolve(folder, name))).digest("hex");
+    if (!known.has(key)) {
+      read(name, "pixels");
+      const data = readFileSync(`${folder}/pixels`);
+      known.set(key, { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) });
+    }
+    return { ...known.get(key) };
   });
-  return keys.map((key) => ({ ...known.get(key) }));
 }
 
 /* What isClear does with a canvas. */

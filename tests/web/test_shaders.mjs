@@ -189,7 +189,7 @@ test("shares of lamps are enlarged bilinearly, constant beyond the outermost cen
   for (const [row, lamp] of [[1, 0], [2, 1]]) {
     terms.put(0, 0, row, 2, 1, [x0, y0, width, height, times, 1.5, 255, lamp], 4, (v) => v);
   }
-  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1n, end: 3n, colors: [[2, 3, 4], [10, 20, 30]] });
+  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1, end: 3, colors: [[2, 3, 4], [10, 20, 30]] });
   const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4), tent = (a, b) => Math.max(0, 1 - Math.abs(a - b));
   for (let y = 0; y < height * times; y++)
     for (let x = 0; x < width * times; x++) {

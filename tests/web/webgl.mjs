@@ -27,8 +27,7 @@ export class WebGLTexture {
   texel(x, y, layer = 0) {
     const image = this.images[layer][0];
     if (!(x >= 0 && y >= 0 && x < image.width && y < image.height)) throw new Error(`texel ${x}, ${y} of ${image.width} x ${image.height}`);
-    const found = this.at(image, x, y);
-    return this.format.endsWith("UI") ? found.map(BigInt) : found;
+    return this.at(image, x, y);
   }
 
   /* Bilinear in one level. */
@@ -115,9 +114,9 @@ export function context(canvas) {
     viewport: (...box) => (view = box),
     uniformMatrix2fv: (at, _, value) => gl.set(at, chunks(value, 4).map(([a, b, c, d]) => [[a, b], [c, d]])),
     uniform2fv: (at, value) => gl.set(at, chunks(value, 2)), uniform3fv: (at, value) => gl.set(at, chunks(value, 3)), uniform4fv: (at, value) => gl.set(at, chunks(value, 4)),
-    uniform2iv: (at, value) => gl.set(at, chunks(value, 2).map((pair) => pair.map(BigInt))),
+    uniform2iv: (at, value) => gl.set(at, chunks(value, 2)),
     uniform1f: (at, value) => gl.set(at, [value]), uniform1i: (at, value) => gl.uniform1iv(at, [value]),
-    uniform1iv: (at, value) => gl.set(at, at.type === "bool" ? value.map(Boolean) : at.type === "int" ? value.map((x) => BigInt(x)) : value),
+    uniform1iv: (at, value) => gl.set(at, at.type === "bool" ? value.map(Boolean) : value),
     set: (at, list) => (used.values[at.name] = at.isList ? list : list[0]),
     drawArrays: () => {
       const values = { ...used.values };
