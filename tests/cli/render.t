@@ -145,6 +145,17 @@ $ for s in $(seq 0 31); do
 > of lamp rest
 > of lamp sky
 > of lamp two
+$ cat >layers.pov <<'END'
++ camera { location -3*z look_at 0 }
++ light_source { -9*z 1 }
++ #declare Varnish = texture { pigment { rgbf <.5,.3,.2,.5> } }
++ box { -1, 1 texture { pigment { rgb .8 } } texture { Varnish } }
++ END
+$ for s in $(seq 0 15); do
++     retex-render --trace-pixel 4,3,$s --size 8x6 -t Varnish layers.pov | tr '\n' ' ' | grep -o 'below.*Varnish d\|leaf . of 2' | paste -sd ,
++ done | sort -u
+> below a layer of target Varnish d,leaf 1 of 2
+> leaf 0 of 2
 $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <openexr.h>
 #include <zlib.h>
@@ -255,32 +256,64 @@ static void test_checksums_of_bands(void **state)
     retex_exr_encoding_free(&encoding);
 }
 
-/* The chunks of an open file's only part, copied into another file as they are. */
-static void check_copy(RetexExr *exr, const RetexExrPart *part)
+/* A part whose chunks are those of an open file's only part. */
+typedef struct Copied {
+    RetexExrPart part;
+    RetexImage shape;
+    RetexExrPlan plan;
+    RetexExrStored stored;
+} Copied;
+
+static void open_copied(Copied *copied, RetexExr *exr, const RetexExrPart *part)
 {
     static const uint32_t bands[3];
-    char name[1100];
     RetexExrRequest request = {.channels = {"R", "G", "B"}, .bands = bands};
-    RetexExrPlan plan = {0};
-    RetexExrStored stored;
+    RetexError err = {0};
+    *copied = (Copied){.part = *part, .shape = *part->image};
+    copied->shape.pixels = NULL;
+    copied->part.image = &copied->shape, copied->part.stored = &copied->stored, copied->part.store = NULL;
+    test_must(retex_exr_plan_open(exr, &copied->plan, &request, &err), &err);
+    assert_int_equal(retex_exr_stored_find(&copied->stored, exr, &copied->plan, part->type), 1);
+}
+
+/* Chunks are copied into another file as they are. */
+static void check_copy(RetexExr *exr, const RetexExrPart *part)
+{
+    char name[1100];
+    Copied copied;
     RetexInput *input = NULL;
     RetexExr *copy = NULL;
     RetexError err = {0};
-    RetexImage shape = *part->image;
-    RetexExrPart of = *part;
-    shape.pixels = NULL;
-    of.image = &shape, of.stored = &stored, of.store = NULL;
     snprintf(name, sizeof name, "%s-copy.exr", path);
-    test_must(retex_exr_plan_open(exr, &plan, &request, &err), &err);
-    assert_int_equal(retex_exr_stored_find(&stored, exr, &plan, part->type), 1);
-    write_to(name, &of, 1, 1, 2);
+    open_copied(&copied, exr, part);
+    write_to(name, &copied.part, 1, 1, 2);
     test_must(retex_input_open(&input, name, &err), &err);
     test_must(retex_exr_open(&copy, input, &err), &err);
     check_part(copy, part, 0, 2);
     retex_exr_close(&copy);
     retex_input_close(&input);
-    retex_exr_plan_close(&plan);
+    retex_exr_plan_close(&copied.plan);
     unlink(name);
+}
+
+/* Where the file lost its last chunks since it was opened, there is an error, and no copy. */
+static void check_copy_of_less(RetexExr *exr, const RetexExrPart *part)
+{
+    char name[1100];
+    Copied copied;
+    RetexExrEncoding *encoding;
+    RetexError err = {0};
+    struct stat of;
+    snprintf(name, sizeof name, "%s-copy.exr", path);
+    open_copied(&copied, exr, part);
+    test_must(retex_exr_encode(&encoding, &copied.part, 1, 1, 2, &err), &err);
+    assert_int_equal(stat(path, &of), 0);
+    assert_int_equal(truncate(path, of.st_size - 8), 0);
+    assert_int_not_equal(retex_exr_write(encoding, 75, 50, "note", "a text", name, &err), RETEX_OK);
+    assert_non_null(strstr(err.message, "is damaged or truncated"));
+    assert_int_not_equal(access(name, F_OK), 0);
+    retex_exr_encoding_free(&encoding);
+    retex_exr_plan_close(&copied.plan);
 }
 
 /* Parts of floats of 24 bits are compressed by PXR24, which other readers know, and read without loss here and by
@@ -329,6 +362,7 @@ static void test_floats_of_24_bits(void **state)
         test_must(retex_exr_open(&exr, input, &err), &err);
         check_part(exr, &part, 0, 2);
         check_copy(exr, &part);
+        check_copy_of_less(exr, &part);
         retex_exr_close(&exr);
         retex_input_close(&input);
         retex_band_store_close(&store);
