@@ -10,13 +10,14 @@
 # - a set of another size, another scene, filter, depth or the same seed is refused.
 set -u
 . tests/lib/tap.sh
+. tests/fidelity/truth.sh
 scene=$scenes/cornell-box/cornell-box.pov new=Floor=$scenes/textures/brick.jpg
 render() { retex-render -q --threads 2 --size 40x30 "$@"; }
 
-printf 'output,Floor\n%s/truth.exr,%s\n%s/original.exr,\n' "$work" "${new#*=}" "$work" >"$work/truths.csv"
-render --spp 4096 --seed 7777 --variants "$work/truths.csv" "$scene"
+converged control-brick 40x30 4096 7777 render --replace "$new" "$scene"
+converged control-original 40x30 4096 7777 render --plain "$scene"
 render --spp 1024 --seed 1000 -t Floor --control-data unbiased "$scene" -o "$work/set.exr"
-left=$(figure "$work/set.exr" "$work/original.exr" relmse)
+left=$(figure "$work/set.exr" "$work/control-original.exr" relmse)
 echo "# the set: relMSE $left"
 
 for mode in unbiased halves; do
@@ -24,10 +25,10 @@ for mode in unbiased halves; do
     for seed in $(seq 24); do
         render --spp 8 --seed "$seed" --control "$work/set.exr" --control-mode $mode --replace "$new" "$scene" \
             -o "$work/one-$seed.exr"
-        one=$(echo "$one $(figure "$work/one-$seed.exr" "$work/truth.exr" relmse)" | awk '{ print $1 + $2 / 24 }')
+        one=$(echo "$one $(figure "$work/one-$seed.exr" "$work/control-brick.exr" relmse)" | awk '{ print $1 + $2 / 24 }')
     done
     make_mean "$work/mean.exr" "$work"/one-*.exr
-    mean=$(figure "$work/mean.exr" "$work/truth.exr" relmse)
+    mean=$(figure "$work/mean.exr" "$work/control-brick.exr" relmse)
     echo "# $mode: relMSE of one picture of 8 samples $one, of the mean of 24 $mean"
     result "$(awk "BEGIN { print ($mean > 0 && $mean <= 1.1 * ($one / 24 + $left)) }")" "$mode: right on average"
 done
@@ -37,8 +38,8 @@ for case in 8:8.5:unbiased 8:3.8:halves 8:5:biased 2:8.5:unbiased 2:5.5:biased; 
     render --spp "$spp" --seed 5 --replace "$new" "$scene" -o "$work/plain.exr"
     render --spp "$spp" --seed 5 --control "$work/set.exr" --control-mode "$mode" --replace "$new" "$scene" \
         -o "$work/controlled.exr"
-    plain=$(figure "$work/plain.exr" "$work/truth.exr" psnr)
-    found=$(figure "$work/controlled.exr" "$work/truth.exr" psnr)
+    plain=$(figure "$work/plain.exr" "$work/control-brick.exr" psnr)
+    found=$(figure "$work/controlled.exr" "$work/control-brick.exr" psnr)
     echo "# $spp samples: --replace $plain dB, --control $mode $found dB"
     result "$(awk "BEGIN { print ($found >= $plain + $gain) }")" "$mode: better than --replace at $spp samples"
 done

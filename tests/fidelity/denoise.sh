@@ -9,10 +9,11 @@
 # - of a render without a set, --replace with --denoise, 4.3 and 2.1 dB; its light is what it was.
 set -u
 . tests/lib/tap.sh
+. tests/fidelity/truth.sh
 new=Floor=$scenes/textures/brick.jpg
 
 render() { retex-render -q --threads 2 --size 80x60 "$@"; }
-psnr() { figure "$1" "$work/truth.exr" psnr; }
+psnr() { figure "$1" "$truth" psnr; }
 mean() { # shellcheck disable=SC2046 # words wanted
     make_values "$1" $(awk 'BEGIN { for (i = 0; i < 80 * 60; i++) print i % 80 "," int(i / 80) }') |
         awk '{ sum += $1 + $2 + $3 } END { print sum / NR / 3 }'
@@ -20,8 +21,8 @@ mean() { # shellcheck disable=SC2046 # words wanted
 # gains NAME LEAST BEFORE AFTER: pictures.
 gains() {
     before=$(psnr "$3") after=$(psnr "$4")
-    echo "# $1: $before dB, denoised $after dB; relMSE $(figure "$3" "$work/truth.exr" relmse)," \
-        "$(figure "$4" "$work/truth.exr" relmse)"
+    echo "# $1: $before dB, denoised $after dB; relMSE $(figure "$3" "$truth" relmse)," \
+        "$(figure "$4" "$truth" relmse)"
     result "$(awk "BEGIN { print (${before:-0} > 0 && ${after:-0} >= $before + $2) }")" "$1: gains at least $2 dB"
 }
 # set_gains NAME LEAST OPTION…: of a set rendered so.
@@ -37,8 +38,8 @@ set_gains() {
 }
 
 check_scene() { # SCENE DECIBELS: of the set, in layout paper, of a render, of the set with 512 samples
-    scene=$1 file=$scenes/$1/$1.pov
-    render --spp 1024 --seed 99 --replace "$new" "$file" -o "$work/truth.exr"
+    scene=$1 file=$scenes/$1/$1.pov truth=$work/denoise-$1.exr
+    converged "denoise-$1" 80x60 1024 99 render --replace "$new" "$file"
     for seed in 1 2; do
         set_gains "$scene, seed $seed" "$2" --spp 64 --seed $seed
     done

@@ -3,6 +3,7 @@
 # What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are what view says,
 # and are not made again where they are there.
 . tests/figures/head.sh
+. tests/fidelity/truth.sh
 build=${BUILD:-build} here=tests/fidelity
 all_scenes='cornell-box glass-caustics living-room kitchen globe glossy-pair horizon'
 textures='checker wood grout text saturated constant dark photo'
@@ -100,33 +101,11 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
 
 # ---- converged pictures ----
 
-# A truth is made of two converged pictures (truth.py) and is a link in $work/truth to a file that outlives builds, in
-# $build/truth or, of small ones, in $here/truths. The name there has a digest of the view, the samples and the pixels of a
-# small picture of the same textures: what changes pictures, in renderer, scene or texture, changes the small picture
-# too, and the truth is rendered again.
-truth_file() { # NAME SMALL-PICTURE WORD…: where that of this small picture is, or is to be
-    key=$({
-        name=$1 small=$2
-        shift 2
-        echo "$@"
-        oiiotool --hash "$small" | grep SHA-1
-    } | sha256sum | cut -c1-16)
-    [ -e "$here/truths/$1-$key.exr" ] && echo "$PWD/$here/truths/$1-$key.exr" && return
-    mkdir -p "$build/truth"
-    echo "$(cd "$build" && pwd)/truth/$1-$key.exr"
-}
+# A truth of a table is made of two converged pictures (truth.py), and is a link in $work/truth to where ../truth.sh keeps it.
 keep_truth() { # NAME A.exr B.exr FILE
     "${python:-/usr/bin/python3}" -B $here/table/truth.py "$2" "$3" "$4.part.exr"
     rm "$2" "$3"
     store_truth "$1" "$4.part.exr" "$4"
-}
-# With KEEP_TRUTHS=1, as make figures has it, a new one replaces that of the same name in $here/truths.
-store_truth() { # NAME NEW FILE
-    mv "$2" "$3"
-    [ -n "${KEEP_TRUTHS:-}" ] || return 0
-    rm -f "$here/truths/$1"-????????????????.exr
-    mv "$3" "$here/truths/"
-    ln -sfn "$PWD/$here/truths/${3##*/}" "$work/truth/$1.exr"
 }
 
 # Of a scene under several textures, rendered along the same paths: $work/truth/SCENE-TEXTURE.exr.

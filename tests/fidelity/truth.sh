@@ -1,0 +1,44 @@
+# shellcheck shell=sh
+# shellcheck disable=SC2154 # who sources it gives the work folder, $work
+# Converged pictures in files that outlive builds: in build/truth or, of small ones, in tests/fidelity/truths. Sourced from
+# the top of the repository.
+#
+# A file's name has a digest of the view, the samples and the pixels of a small picture of the same textures: what changes
+# pictures, in renderer, scene or texture, changes the small picture too, and the truth is rendered again.
+
+truth_file() { # NAME SMALL-PICTURE WORD…: where that of this small picture is, or is to be
+    key=$({
+        name=$1 small=$2
+        shift 2
+        echo "$@"
+        oiiotool --hash "$small" | grep SHA-1
+    } | sha256sum | cut -c1-16)
+    [ -e "tests/fidelity/truths/$1-$key.exr" ] && echo "$(pwd)/tests/fidelity/truths/$1-$key.exr" && return
+    mkdir -p "${BUILD:-build}/truth"
+    echo "$(cd "${BUILD:-build}" && pwd)/truth/$1-$key.exr"
+}
+# With KEEP_TRUTHS=1, as make figures has it, a new one replaces that of the same name in tests/fidelity/truths.
+store_truth() { # NAME NEW FILE
+    mv "$2" "$3"
+    [ -n "${KEEP_TRUTHS:-}" ] || return 0
+    rm -f "tests/fidelity/truths/$1"-????????????????.exr
+    mv "$3" "tests/fidelity/truths/"
+    ln -sfn "$(pwd)/tests/fidelity/truths/${3##*/}" "$work/truth/$1.exr"
+}
+
+# One picture as half floats, which a command renders that takes --size, --spp, --seed and -o: $work/NAME.exr.
+converged() { # NAME SIZE SPP SEED COMMAND…
+    name=$1 view="--size $2 --spp $3 --seed $4"
+    shift 4
+    mkdir -p "$work/key" "$work/truth"
+    "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$name.exr"
+    kept=$(truth_file "$name" "$work/key/$name.exr" "$view")
+    if [ ! -e "$kept" ]; then
+        # shellcheck disable=SC2086 # words wanted
+        "$@" $view -o "$work/key/$name.exr"
+        oiiotool "$work/key/$name.exr" --ch R,G,B -d half -o "$work/key/$name-new.exr"
+        store_truth "$name" "$work/key/$name-new.exr" "$kept"
+        [ -e "$kept" ] || kept=tests/fidelity/truths/${kept##*/}
+    fi
+    cp "$kept" "$work/$name.exr"
+}
