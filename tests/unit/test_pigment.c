@@ -207,6 +207,7 @@ static void texels_of_odd_images(void **state)
         for (int i = 0; i < size * size; i++) {
             image.pixels[3 * i] = (float)(i % size) / 64;
             image.pixels[3 * i + 1] = (float)(size - 1 - i / size) / 64; /* rows from below */
+            image.pixels[3 * i + 2] = 0;
         }
         assert_int_equal(retex_texture_create(&map.texture, &image, NULL, 0, NULL), 0);
         for (int i = 0; i < 4 * size; i++) { /* also between texels, in whose middle they are themselves */
