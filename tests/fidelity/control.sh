@@ -10,7 +10,7 @@
 # - a set of another size, another scene, filter, depth or the same seed is refused.
 set -u
 . tests/lib/tap.sh
-. tests/fidelity/truth.sh
+. tests/fidelity/table/truth.sh
 scene=$scenes/cornell-box/cornell-box.pov new=Floor=$scenes/textures/brick.jpg
 render() { retex-render -q --threads 2 --size 40x30 "$@"; }
 

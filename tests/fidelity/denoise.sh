@@ -9,7 +9,7 @@
 # - of a render without a set, --replace with --denoise, 4.3 and 2.1 dB; its light is what it was.
 set -u
 . tests/lib/tap.sh
-. tests/fidelity/truth.sh
+. tests/fidelity/table/truth.sh
 new=Floor=$scenes/textures/brick.jpg
 
 render() { retex-render -q --threads 2 --size 80x60 "$@"; }

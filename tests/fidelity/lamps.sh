@@ -4,7 +4,7 @@
 # and with all bits; and that keeping lamps apart changes nothing where none is changed.
 set -u
 . tests/lib/tap.sh
-. tests/fidelity/truth.sh
+. tests/fidelity/table/truth.sh
 
 cat >"$work/room.pov" <<'POV'
 #version 3.7;

@@ -3,7 +3,7 @@
 # What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are what view says,
 # and are not made again where they are there.
 . tests/figures/head.sh
-. tests/fidelity/truth.sh
+. tests/fidelity/table/truth.sh
 build=${BUILD:-build} here=tests/fidelity
 all_scenes='cornell-box glass-caustics living-room kitchen globe glossy-pair horizon'
 textures='checker wood grout text saturated constant dark photo'
@@ -101,7 +101,7 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
 
 # ---- converged pictures ----
 
-# A truth of a table is made of two converged pictures (truth.py), and is a link in $work/truth to where ../truth.sh keeps it.
+# A truth of a table is made of two converged pictures (truth.py), and is a link in $work/truth to where truth.sh keeps it.
 keep_truth() { # NAME A.exr B.exr FILE
     "${python:-/usr/bin/python3}" -B $here/table/truth.py "$2" "$3" "$4.part.exr"
     rm "$2" "$3"
