@@ -17,7 +17,7 @@ render() { retex-render -q --threads 2 --size 40x30 "$@"; }
 converged control-brick 40x30 4096 7777 render --replace "$new" "$scene"
 converged control-original 40x30 4096 7777 render --plain "$scene"
 render --spp 1024 --seed 1000 -t Floor --control-data unbiased "$scene" -o "$work/set.exr"
-left=$(figure "$work/set.exr" "$work/control-original.exr" relmse)
+left=$(figure "$work/set.exr" "$work/truth/control-original.exr" relmse)
 echo "# the set: relMSE $left"
 
 for mode in unbiased halves; do
@@ -25,10 +25,10 @@ for mode in unbiased halves; do
     for seed in $(seq 24); do
         render --spp 8 --seed "$seed" --control "$work/set.exr" --control-mode $mode --replace "$new" "$scene" \
             -o "$work/one-$seed.exr"
-        one=$(echo "$one $(figure "$work/one-$seed.exr" "$work/control-brick.exr" relmse)" | awk '{ print $1 + $2 / 24 }')
+        one=$(echo "$one $(figure "$work/one-$seed.exr" "$work/truth/control-brick.exr" relmse)" | awk '{ print $1 + $2 / 24 }')
     done
     make_mean "$work/mean.exr" "$work"/one-*.exr
-    mean=$(figure "$work/mean.exr" "$work/control-brick.exr" relmse)
+    mean=$(figure "$work/mean.exr" "$work/truth/control-brick.exr" relmse)
     echo "# $mode: relMSE of one picture of 8 samples $one, of the mean of 24 $mean"
     result "$(awk "BEGIN { print ($mean > 0 && $mean <= 1.1 * ($one / 24 + $left)) }")" "$mode: right on average"
 done
@@ -38,8 +38,8 @@ for case in 8:8.5:unbiased 8:3.8:halves 8:5:biased 2:8.5:unbiased 2:5.5:biased; 
     render --spp "$spp" --seed 5 --replace "$new" "$scene" -o "$work/plain.exr"
     render --spp "$spp" --seed 5 --control "$work/set.exr" --control-mode "$mode" --replace "$new" "$scene" \
         -o "$work/controlled.exr"
-    plain=$(figure "$work/plain.exr" "$work/control-brick.exr" psnr)
-    found=$(figure "$work/controlled.exr" "$work/control-brick.exr" psnr)
+    plain=$(figure "$work/plain.exr" "$work/truth/control-brick.exr" psnr)
+    found=$(figure "$work/controlled.exr" "$work/truth/control-brick.exr" psnr)
     echo "# $spp samples: --replace $plain dB, --control $mode $found dB"
     result "$(awk "BEGIN { print ($found >= $plain + $gain) }")" "$mode: better than --replace at $spp samples"
 done

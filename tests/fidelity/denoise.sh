@@ -38,7 +38,7 @@ set_gains() {
 }
 
 check_scene() { # SCENE DECIBELS: of the set, in layout paper, of a render, of the set with 512 samples
-    scene=$1 file=$scenes/$1/$1.pov truth=$work/denoise-$1.exr
+    scene=$1 file=$scenes/$1/$1.pov truth=$work/truth/denoise-$1.exr
     converged "denoise-$1" 80x60 1024 99 render --replace "$new" "$file"
     for seed in 1 2; do
         set_gains "$scene, seed $seed" "$2" --spp 64 --seed $seed

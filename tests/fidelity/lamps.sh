@@ -68,8 +68,8 @@ denoises() {
         # shellcheck disable=SC2086
         retex-combine -q "$work/$set.exr" --solo Bulb $3 -o "$work/$set-bulb.exr"
     done
-    noisy=$(figure "$work/set-bulb.exr" "$work/$1.exr" psnr)
-    denoised=$(figure "$work/denoised-bulb.exr" "$work/$1.exr" psnr)
+    noisy=$(figure "$work/set-bulb.exr" "$work/truth/$1.exr" psnr)
+    denoised=$(figure "$work/denoised-bulb.exr" "$work/truth/$1.exr" psnr)
     echo "# the bulb alone, $2: $noisy dB, denoised $denoised dB"
     result "$(at_least "$denoised" "$(awk "BEGIN { print $noisy + 3 }")")" "a lamp denoised, $2"
 }

@@ -41,7 +41,7 @@ render() { # SCENE OPTION…
         "$here/scenes/pan-$scene.pov"
 }
 # The converged frames, one below the other, as the truths of lib.sh: $work/truth/pan-SCENE-HEIGHT.exr.
-converged() { # SCENE
+converged_frames() { # SCENE
     name=pan-$1-$height seen=$work/key/$1 new=$work/truth.new/$1
     mkdir -p "$work/key" "$work/truth" "$work/truth.new"
     # shellcheck disable=SC2046 # words wanted
@@ -59,7 +59,7 @@ converged() { # SCENE
 
 for scene in $scenes; do
     echo "fidelity-frames: $scene" >&2
-    converged "$scene"
+    converged_frames "$scene"
     for seed in $seeds; do
         name=$work/$scene-seed$seed
         # shellcheck disable=SC2046

@@ -140,10 +140,7 @@ truths() { # SCENE SPP TEXTURE…
 truth() { # NAME SIZE SPP COMMAND…
     truth_name=$1 truth_view="--size $2 --spp $3"
     shift 3
-    mkdir -p "$work/key" "$work/truth"
-    "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$truth_name.exr"
-    kept=$(truth_file "$truth_name" "$work/key/$truth_name.exr" "$truth_view")
-    ln -sfn "$kept" "$work/truth/$truth_name.exr"
+    find_truth "$truth_name" "$truth_view" "$@"
     [ ! -e "$kept" ] || return 0
     for number in 1 2; do
         # shellcheck disable=SC2086 # words wanted

@@ -26,19 +26,24 @@ store_truth() { # NAME NEW FILE
     ln -sfn "$(pwd)/tests/fidelity/truths/${3##*/}" "$work/truth/$1.exr"
 }
 
-# One picture as half floats, which a command renders that takes --size, --spp, --seed and -o: $work/NAME.exr.
-converged() { # NAME SIZE SPP SEED COMMAND…
-    name=$1 view="--size $2 --spp $3 --seed $4"
-    shift 4
+# Of a picture that a command renders, which takes --size, --spp, --seed and -o: its file, in $kept, to which
+# $work/truth/NAME.exr is a link.
+find_truth() { # NAME VIEW COMMAND…
+    name=$1 view=$2
+    shift 2
     mkdir -p "$work/key" "$work/truth"
     "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$name.exr"
     kept=$(truth_file "$name" "$work/key/$name.exr" "$view")
-    if [ ! -e "$kept" ]; then
-        # shellcheck disable=SC2086 # words wanted
-        "$@" $view -o "$work/key/$name.exr"
-        oiiotool "$work/key/$name.exr" --ch R,G,B -d half -o "$work/key/$name-new.exr"
-        store_truth "$name" "$work/key/$name-new.exr" "$kept"
-        [ -e "$kept" ] || kept=tests/fidelity/truths/${kept##*/}
-    fi
-    cp "$kept" "$work/$name.exr"
+    ln -sfn "$kept" "$work/truth/$name.exr"
+}
+# One render as half floats: $work/truth/NAME.exr.
+converged() { # NAME SIZE SPP SEED COMMAND…
+    name=$1 view="--size $2 --spp $3 --seed $4"
+    shift 4
+    find_truth "$name" "$view" "$@"
+    [ ! -e "$kept" ] || return 0
+    # shellcheck disable=SC2086 # words wanted
+    "$@" $view -o "$work/key/$name.exr"
+    oiiotool "$work/key/$name.exr" --ch R,G,B -d half -o "$work/key/$name-new.exr"
+    store_truth "$name" "$work/key/$name-new.exr" "$kept"
 }
