@@ -27,7 +27,7 @@ function numbersOf(text, count, least, most) {
 const UNITS = { mm: [1, 1000], cm: [1, 100], m: [1, 1], in: [254, 10000], ft: [3048, 10000] };
 /* One or two lengths that are allowed: numbers, or, if all have a unit, a text in metres. */
 function lengthsOf(text, isAllowed) {
-  const parts = text.split(",").map((part) => /^(.*?)\s*(mm|cm|m|in|ft)?\s*$/is.exec(part)), units = parts.filter((part) => part[2]).length;
+  const parts = text.split(",").map((part) => /^(.*?)(mm|cm|m|in|ft)?$/is.exec(part.trim())), units = parts.filter((part) => part[2]).length;
   const lengths = parts.map(([, number, unit]) => (([top, bottom]) => (numberOf(number) * top) / bottom)(UNITS[(unit || "m").toLowerCase()]));
   if (lengths.length > 2 || (units && units < lengths.length) || !lengths.every((x) => isFinite(x) && isAllowed(x))) return undefined;
   return units && lengths.some(Boolean) ? lengths.map((x) => `${numberText(x)}m`).join() : lengths.length > 1 ? lengths : lengths[0];

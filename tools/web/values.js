@@ -8,7 +8,7 @@ export const srgbDecode = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.05
 const colorNames = new Map(Array.from(COLORS.matchAll(/([a-z]+)(\w{6})/g), ([, name, code]) => [name, code]));
 
 /* Text as a finite number; NaN if it is none. */
-export const numberOf = (text) => (/^\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*$/i.test(text) && isFinite(text) ? Number(text) + 0 : NaN);
+export const numberOf = (text) => (/^\s*[-+]?(\d+(\.\d*)?|\.\d+)(e[-+]?\d+)?\s*$/i.test(text) && isFinite(text) ? Number(text) + 0 : NaN);
 
 /* A colour, scene-linear; null if the text is none and may be the address of a picture. */
 export function readColor(text) {
@@ -39,5 +39,5 @@ export function numberText(x, single) {
   const as = single ? Math.fround : Number;
   const digits = [6, 7, 8, 9, 15, 16, 17].find((n) => (single || n > 9) && as(x.toPrecision(n)) === as(x)), [fraction, power] = x.toExponential(digits - 1).split("e");
   if (power >= -4 && power < digits) return String(Number(x.toPrecision(digits)));
-  return `${fraction.replace(/\.?0+$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
+  return `${fraction.replace(/(?<![.0])0+$|\.0*$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
 }

@@ -8,8 +8,8 @@ export const isOpen = (app) => app.hasScene && app.project.targets.length > 0;
 export const isDone = (app) => app.project.lamps.length > 0 || Object.keys(app.project.finishes).length > 0;
 
 /* " 68.40%  Daylight  rgb(5,5.6,6.3)" */
-export const readLamps = (text) => text.split("\n").map((line) => /^\s*([\d.]+)%\s{2}(.+?)(?:\s{2}.*)?$/.exec(line)).filter(Boolean)
-  .map(([, share, name]) => ({ name, share: Number(share) / 100 }));
+export const readLamps = (text) => text.split("\n").map((line) => /^\s*([\d.]+)%\s{2}(.+)/.exec(line)).filter(Boolean)
+  .map(([, share, said]) => ({ name: said.split(/\s{2}/, 1)[0], share: Number(share) / 100 }));
 /* "matt	built in" */
 export const readFinishes = (text) => text.split("\n").map((line) => line.split("\t")).filter(([name]) => name).map(([name, from = ""]) => ({ name, from }));
 

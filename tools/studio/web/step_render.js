@@ -120,7 +120,7 @@ export function progressOf(job, text) {
 }
 
 function row(app, render) {
-  const job = app.jobOf(render.set), expected = job && told(app), name = `Render ${/(\d+)\.exr$/.exec(render.set)?.[1] || ""}`;
+  const job = app.jobOf(render.set), expected = job && told(app), name = `Render ${/\/(\d+)\.exr$/.exec(render.set)?.[1] || ""}`;
   const size = render.args?.[render.args.indexOf("--size") + 1]?.replace("x", " × ") || "";
   const away = () => app.change(`Remove ${name}`, (p) => ({ ...p, renders: p.renders.filter((r) => r.set !== render.set) }));
   return h("li", { class: "card" }, h("div", {}, h("b", {}, name), h("small", {}, ` ${size}`),
