@@ -5,9 +5,10 @@ $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate 
 > roots
 > uploads
 > thumbs
-$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio full project models events
+$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio full project windows models events
 > full
 > project
+> windows
 > models
 > events
 $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio jobs killed resumed crashed quits

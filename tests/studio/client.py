@@ -1,6 +1,6 @@
 # What studio.t asks of retex-studio: starts it, runs the checks of the functions that are named, each with a server and
 # a folder of its own, and prints what differs, and at last the name of the function.
-import http.client, json, os, re, shutil, signal, socket, subprocess, sys, tempfile, threading, time
+import fcntl, http.client, json, os, re, shutil, signal, socket, subprocess, sys, tempfile, threading, time
 
 SCENE = '''camera { location <0, 1, -3> look_at <0, 1, 0> angle 50 }
 light_source { <1, 3, -2> color rgb 2 }
@@ -11,16 +11,17 @@ sphere { <0, 1, 0>, .7 pigment { color rgb .6 } }
 
 
 class Server:
-    def __init__(self, *options, folder=None, environment=None, browser=False):
+    def __init__(self, *options, folder=None, environment=None, browser=False, address='address'):
         self.folder = folder or tempfile.mkdtemp(dir='.')
         if not os.path.exists(f'{self.folder}/room.pov'):
             open(f'{self.folder}/room.pov', 'w').write(SCENE)
         os.makedirs(f'{self.folder}/home', exist_ok=True)
-        address = f'{self.folder}/address'
+        options = '-o', address, *options
+        address = f'{self.folder}/{address}'
         if os.path.exists(address):
             os.remove(address)
         self.process = subprocess.Popen(
-            ['retex-studio', 'room.pov', *([] if browser else ['--no-browser']), '-o', 'address', *options],
+            ['retex-studio', 'room.pov', *([] if browser else ['--no-browser']), *options],
             cwd=self.folder, env={**os.environ, 'HOME': os.path.abspath(self.folder) + '/home', **(environment or {})},
             stderr=open(f'{self.folder}/log', 'w'))
         for _ in range(1000):
@@ -231,6 +232,48 @@ def project(server):
     expect('too large', put('', If_None_Match='*', Content_Length=str(5 << 20)).status, 413)
 
 
+def windows(server):
+    """Two servers of one project: of two changes of the same state one is written, the other is told."""
+    one = Server(folder=server.folder, address='other-address')
+    put = lambda of, text, **headers: of.ask('api/project', 'PUT', text, **headers)
+    etag, seen = put(server, '{}', If_None_Match='*').headers['ETag'], []
+    for i in range(60):
+        barrier, answers = threading.Barrier(2), {}
+
+        def change(of, k):
+            text = json.dumps([k, i] * 500)
+            barrier.wait()
+            answers[k] = put(of, f'{{"a": {text}}}', If_Match=etag)
+        threads = [threading.Thread(target=change, args=of) for of in ((server, 0), (one, 1))]
+        [thread.start() for thread in threads]
+        [thread.join() for thread in threads]
+        seen.append(sorted(answer.status for answer in answers.values()))
+        winner = min(answers, key=lambda k: answers[k].status)
+        etag = server.ask('api/project').headers['ETag']
+        if seen[-1] == [200, 412]:
+            expect('what is there', etag, answers[winner].headers['ETag'])
+    expect('both at once', [(pair, seen.count(pair)) for pair in ([200, 200], [200, 412], [412, 412])],
+           [([200, 200], 0), ([200, 412], 60), ([412, 412], 0)])
+    # whoever holds the lock is waited for, not for ever
+    folder = os.open(server.folder, os.O_RDONLY)
+    fcntl.flock(folder, fcntl.LOCK_EX)
+    thread = threading.Thread(target=lambda: seen.append(put(server, '{"b": 1}', If_Match=etag).status))
+    thread.start()
+    time.sleep(.5)
+    expect('before its turn', (len(seen), server.ask('api/project').headers['ETag']), (60, etag))
+    fcntl.flock(folder, fcntl.LOCK_UN)
+    thread.join()
+    expect('in its turn', seen[-1], 200)
+    etag = server.ask('api/project').headers['ETag']
+    fcntl.flock(folder, fcntl.LOCK_EX)
+    answer = put(server, '{"b": 2}', If_Match=etag)
+    expect('locked', (answer.status, json.loads(answer.body)),
+           (507, {'error': 'another program keeps the project locked'}))
+    os.close(folder)
+    expect('locked no more', put(server, '{"b": 3}', If_Match=etag).status, 200)
+    one.end()
+
+
 def models(server):
     """Each model has a project of its own, and a project says whose it is."""
     text = {name: json.dumps({'model': name}) for name in ('room.pov', 'other.pov')}
@@ -249,7 +292,9 @@ def models(server):
 
 
 def events(server):
-    """What changes on disk is told, and what happens to jobs."""
+    """What changes on disk is told, and what happens to jobs; first what is there, jobs that are over too."""
+    over = server.job('room.pov', '--list-targets')
+    server.wait(over)
     stream = http.client.HTTPConnection('127.0.0.1', server.port, timeout=20)
     stream.request('GET', f'/{server.token}/api/events')
     answer = stream.getresponse()
@@ -263,15 +308,14 @@ def events(server):
             elif line.startswith('data: ') and event == name:
                 return json.loads(line[6:])
 
-    answer.readline()
-    time.sleep(.3)
+    expect('model of the beginning', until('model')['there'], True)
+    told = until('job')
+    expect('job of the beginning', (told['job'], told['state']), (over, 'done'))
     open(f'{server.folder}/room.pov', 'a').write('// changed\n')
     expect('model', until('model')['there'], True)
     open(f'{server.folder}/new', 'w').write('{}')
     os.rename(f'{server.folder}/new', f'{server.folder}/room.pov.studio.json')
-    while (etag := until('project')['etag']) == '':  # of the beginning
-        pass
-    expect('project', etag, server.ask('api/project').headers['ETag'])
+    expect('project', until('project')['etag'], server.ask('api/project').headers['ETag'])
     number = server.job('room.pov', '--list-targets')
     expect('job', until('job')['job'], number)
     os.remove(f'{server.folder}/room.pov')

@@ -6,7 +6,8 @@
 
 struct Studio;
 
-/* A stream of what changes after a number of changes. */
+/* A stream of what changes after a number of changes. After 0 it begins with all that is there, so that a window misses
+ * nothing between its first questions and its stream. */
 Reply events_stream(struct Studio *studio, uint64_t since);
 
 #endif

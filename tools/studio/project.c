@@ -7,12 +7,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <retex/clock.h>
 #include <retex/output_file.h>
 
 #include "http/hash.h"
+
+/* How long another server's lock is waited for, and between attempts. */
+enum { LOCK_SECONDS = 3, LOCK_MILLISECONDS = 5 };
 
 void project_open(Project *project, Changes *changes)
 {
@@ -101,6 +106,31 @@ static int check_seen(const Model *model, const char *seen, RetexError *err)
     return RETEX_OK;
 }
 
+/* Servers of one project write one after the other. The lock is of the folder, because each write makes another file.
+ * Returns what holds it, to be closed; -1 on file systems that have no locks; *code tells what failed. */
+static int lock_folder(const Model *model, int *code, RetexError *err)
+{
+    const double until = retex_clock_seconds() + LOCK_SECONDS;
+    const int folder = open(model->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    *code = RETEX_OK;
+    if (folder < 0) {
+        *code = retex_fail(err, RETEX_EIO, "cannot open %s: %s", model->folder, strerror(errno));
+        return -1;
+    }
+    while (flock(folder, LOCK_EX | LOCK_NB) != 0) {
+        const int is_held = errno == EWOULDBLOCK;
+        if (is_held && retex_clock_seconds() < until) {
+            usleep(1000 * LOCK_MILLISECONDS);
+            continue;
+        }
+        if (is_held)
+            *code = retex_fail(err, RETEX_EIO, "another program keeps the project locked");
+        close(folder);
+        return -1;
+    }
+    return folder;
+}
+
 static void note(Project *project, const Model *model, const char *etag)
 {
     changes_lock(project->changes);
@@ -119,13 +149,17 @@ int project_write(Project *project, const Model *model, const char *text, size_t
     if (code)
         return code;
     pthread_mutex_lock(&project->writing);
-    code = check_seen(model, seen, err);
+    const int lock = lock_folder(model, &code, err);
+    if (!code)
+        code = check_seen(model, seen, err);
     if (!code)
         code = retex_file_write(model->project, text, bytes, err);
     if (!code) {
         make_etag(text, bytes, etag);
         note(project, model, etag);
     }
+    if (lock >= 0)
+        close(lock);
     pthread_mutex_unlock(&project->writing);
     return code;
 }

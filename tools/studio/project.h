@@ -9,7 +9,7 @@ enum { PROJECT_ETAG = 40, PROJECT_BYTES = 4 << 20 };
 
 typedef struct Project {
     Changes *changes;
-    pthread_mutex_t writing; /* one window after the other */
+    pthread_mutex_t writing; /* one window after the other; of several servers, a lock of the folder */
     char etag[PROJECT_ETAG]; /* of the content that was seen last; "": no file; guarded by the lock of changes */
     const Model *model;      /* whose it is */
     uint64_t changed;

@@ -354,14 +354,8 @@ static Reply answer_job_stop(Request *request)
 
 static Reply answer_events(Request *request)
 {
-    Studio *studio = request->studio;
-    const char *last = request_header(request, "Last-Event-ID"), *since = request_query(request, "since");
-    changes_lock(&studio->changes);
-    uint64_t number = studio->changes.number;
-    changes_unlock(&studio->changes);
-    if (last || since)
-        number = strtoull(last ? last : since, NULL, 10);
-    return events_stream(studio, number);
+    const char *last = request_header(request, "Last-Event-ID");
+    return events_stream(request->studio, last ? strtoull(last, NULL, 10) : 0);
 }
 
 /* ---- preview ---- */

@@ -182,6 +182,8 @@ export class App extends EventTarget {
 
   // ---- jobs ----
 
+  /* The stream begins with all jobs and the project as they are: what happened before it, or while it was broken, is met
+   * as it would have been then. */
   listen() {
     let isFirst = true;
     api.listenTo({
@@ -209,11 +211,10 @@ export class App extends EventTarget {
     this.tell();
   }
 
-  /* What was changed meanwhile is saved now; jobs have gone on. */
+  /* What was changed meanwhile is saved now. */
   async meetAgain() {
     this.lost = this.isMoved = false;
     this.tell("again");
-    await this.attempt(() => this.readJobs());
     if (this.saved !== "saved") await this.saveNow();
     this.tell();
   }
