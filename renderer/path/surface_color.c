@@ -49,10 +49,12 @@ static int mesh_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Ve
 {
     const Pigment *pigment = surface->texture->pigment;
     const Transform *placed = surface->instance ? &surface->instance->transform : NULL;
+    const Vec3 inner = placed ? vec_normalize(transform_inverse_normal(placed, normal)) : normal;
     Vec3 along_u, along_v;
-    if (!surface_tangents(surface, 0, placed ? vec_normalize(transform_inverse_normal(placed, normal)) : normal,
-                          &along_u, &along_v))
+    if (!surface_tangents(surface, 0, surface->backside ? vec_neg(inner) : inner, &along_u, &along_v))
         return 0;
+    if (surface->backside)
+        along_u = vec_neg(along_u), along_v = vec_neg(along_v);
     if (pigment->uv_mapping) {
         const Vec3 x = transform_vector(&pigment->transform, vec3(1, 0, 0)),
                    y = transform_vector(&pigment->transform, vec3(0, 1, 0)), u = along_u, v = along_v;

@@ -38,8 +38,11 @@ static inline Vec3 surface_texture_normal(const Surface *surface)
 SurfaceUv surface_uv(const Surface *surface); /* not part of surface_at, for most surfaces have one colour */
 /* Its `uv`, or that of a mesh's second set, if it has one. */
 Vec2 surface_uv_of_set(const Surface *surface, int second);
-/* Unit vectors perpendicular to a unit normal, in the space of the surface's texture: where u grows, and where v does.
- * 0 where UV do not span the surface. normal: on the outward side, in that space. second: as of surface_uv_of_set. */
+/* Unit vectors perpendicular to a unit normal, in the space of the surface's texture: where u grows, and where v does,
+ * for a frame with the normal that is reversed as a whole where the back is seen. So it is in glTF: a bump is a dent
+ * from behind. Only a mesh with normals has a back; else both vectors are returned reversed there, and bumps rise to
+ * either side. 0 where UV do not span the surface. normal: on the outward side, in that space. second: as of
+ * surface_uv_of_set. */
 int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tangent, Vec3 *bitangent);
 /* How u and v grow with a step in the world: their changes are the dot products. The gradients lie in the surface. 0
  * where there are no UV. */

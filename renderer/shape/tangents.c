@@ -166,6 +166,13 @@ static int shape_directions(const Surface *surface, Vec3 normal, Vec3 *along_u, 
     return 1;
 }
 
+/* Winding makes no front, nor does being closed: rooms are seen from inside. */
+static int has_front(const Surface *surface)
+{
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    return mesh && mesh_face_has_normals(&mesh->faces[surface->face]);
+}
+
 int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tangent, Vec3 *bitangent)
 {
     const Primitive *primitive = surface->primitive;
@@ -178,6 +185,8 @@ int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tang
         along_v = transform_vector(&primitive->transform, along_v);
     } else if (!shape_directions(surface, surface_texture_normal(surface), &along_u, &along_v))
         return 0;
+    if (surface->backside && !has_front(surface))
+        along_u = vec_neg(along_u), along_v = vec_neg(along_v);
     *tangent = perpendicular(vec_normalize(along_u), normal);
     *bitangent = vec_cross(normal, *tangent);
     if (vec_dot(*bitangent, along_v) < 0)

@@ -48,6 +48,32 @@ $ retex-render -q --size 8x8 --spp 256 --plain furnace.pov -o furnace.exr
 $ make_values furnace.exr 4,4 | awk '{ print ($1 > .985 && $1 < 1.015) }'
 > 1
 
+# The same map by retex_normal_map and by normal=: in either order of corners, without normals of a mesh, and with such that
+# point to the viewer or away.
+$ oiiotool -q --pattern constant:color=.7,.6,.9 16x16 3 --fill:color=.35,.5,.9 16x8+0+0 -d uint8 -o bumps.png
+$ oiiotool -q --pattern constant:color=.5,.5,.5 8x8 3 -d uint8 -o grey.png
+$ cat >sides.pov <<'END'
++ #version 3.7;
++ global_settings { assumed_gamma 1 radiosity {} }
++ camera { location <0, 0, -3> look_at 0 angle 40 right x up y }
++ light_source { <3, 1.5, -3> rgb 1 }
++ #declare Card = texture { uv_mapping pigment { image_map { png "grey.png" } } finish { ambient 0 diffuse 1 }
++     #ifdef (Bumps) normal { retex_normal_map { image_map { png "bumps.png" gamma 1 interpolate 2 } } } #end }
++ mesh2 { vertex_vectors { 4, <-1,-1,0>, <1,-1,0>, <1,1,0>, <-1,1,0> }
++     #if (Side) normal_vectors { 4, Side*z, Side*z, Side*z, Side*z } #end
++     uv_vectors { 4, <0,0>, <1,0>, <1,1>, <0,1> } face_indices { 2, #if (Turned) <0,2,1>, <0,3,2> #else <0,1,2>, <0,2,3> #end }
++     texture { Card } }
++ END
+$ for turned in 0 1; do for side in 0 -1 1; do
++     of="-q --size 48x48 --spp 4 --plain -t Card --finish Card=normals -D Turned=$turned -D Side=$side sides.pov"
++     retex-render $of -D Bumps=1 -o own-$turned$side.exr
++     retex-render $of --replace:normal=bumps.png Card=grey.png -o laid.exr
++     retex-diff -q own-$turned$side.exr laid.exr --fail-psnr 50 || echo $turned $side
++ done; done
+$ retex-diff -q own-00.exr own-10.exr --fail-psnr 100
+$ retex-diff -q own-00.exr own-01.exr --fail-psnr 20
+= 1
+
 # What is not a map.
 $ echo 'sphere { 0, 1 normal { retex_normal_map .5 } }' >bad.pov
 $ retex-render bad.pov -o x.exr

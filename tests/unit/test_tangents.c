@@ -133,6 +133,34 @@ static void maps_are_along_uv(void **state)
                   0, 1, 0, -1);
 }
 
+#define CARD "mesh2 { vertex_vectors { 4, 0, x, x+y, y } "
+#define REVERSED "face_indices { 2, <0,2,1>, <0,3,2> } "
+
+/* A surface has a front only where a mesh has normals, which may be on the other side than its winding. All others are
+ * seen from the side that bumps rise to. */
+static void winding_makes_no_front(void **state)
+{
+    (void)state;
+    static const char *const faces[] = {FACES, REVERSED};
+    char text[1024];
+    for (int i = 0; i < 2; i++)
+        for (int behind = 0; behind < 2; behind++) {
+            snprintf(text, sizeof text, CARD UV "%s" TILT "} } }", faces[i]);
+            expect_normal(text, behind, .4, .2, behind ? .8 : -.8);
+            snprintf(text, sizeof text, CARD "uv_vectors { 4, <1,0>, <0,0>, <0,1>, <1,1> } %s" TILT "} } }", faces[i]);
+            expect_normal(text, behind, -.4, .2, behind ? .8 : -.8);
+            for (int away = 0; away < 2; away++) {
+                const double side = behind == away ? 1 : -1;
+                snprintf(text, sizeof text, CARD "normal_vectors { 4, %s } " UV "%s" TILT "} } }",
+                         away ? "z, z, z, z" : "-z, -z, -z, -z", faces[i]);
+                expect_normal(text, behind, .4 * side, .2 * side, behind ? .8 : -.8);
+            }
+        }
+    /* a side of a box, on which u grows against x, from outside and inside */
+    expect_normal("box { <0,0,0>, <1,1,9> " TILT "} } }", 0, -.4, .2, -.8);
+    expect_normal("box { <0,0,0>, <1,1,9> " TILT "} } }", 1, -.4, .2, .8);
+}
+
 /* Corners that have all but the mirroring of UV in common keep their own sides, however large the angles of the other
  * side are there. */
 static void mirrored_halves_stay_apart(void **state)
@@ -230,6 +258,7 @@ int main(void)
         cmocka_unit_test(sphere_has_its_tangents),
         cmocka_unit_test(corners_of_meshes_are_smooth),
         cmocka_unit_test(maps_are_along_uv),
+        cmocka_unit_test(winding_makes_no_front),
         cmocka_unit_test(mirrored_halves_stay_apart),
         cmocka_unit_test(heights_are_slopes_of_the_surface),
         cmocka_unit_test(heights_on_a_sphere),

@@ -113,6 +113,8 @@ same paths; `no map`: the same set without it. `differ`: root mean square of the
   seen at a grazing angle, which mostly reflects, gains little from a normal map, and its reflections stay smooth.
 - **Green points up**, as in OpenGL and glTF. Names such as `wall_nor_dx.png` and `Wall_NormalDX.png`, or the option
   `normal=wall.png,dx`, say that it points down. A folder of maps needs no option; the map whose green points up is preferred.
+- Bumps rise towards the side that is seen, however triangles wind. Where normals of a mesh say that its back is seen they are
+  dents, as in glTF, and as those of `retex_normal_map` in a scene are.
 - Vectors turn with `rotate`, `flip` and negative scales, and mirrored repeats mirror theirs. Maps are taken to be made for
   the proportions in which the picture is laid: a `scale` that stretches it makes no slope flatter.
 - The texture with its map is kept as four images of floats: with 4096 x 4096 texels 1.4 gigabytes, and with mirrored
