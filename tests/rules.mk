@@ -29,6 +29,7 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/common/confine.o
+$(BUILD)/tests/unit/test_beneath: $(BUILD)/obj/tools/common/beneath.o
 # What retex-import asks of a model's surfaces, and its transforms, are tested without Assimp.
 $(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/space/%.o,space room room_view)
 $(BUILD)/tests/unit/test_import_base: $(BUILD)/obj/tools/import/base/affine.o
