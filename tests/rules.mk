@@ -43,7 +43,7 @@ $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
 	$(BUILD)/obj/tools/http/headers.o $(patsubst %,$(BUILD)/obj/tools/serve/files/%.o,names kept content decoding images rooms uploads)
 # And the parts of retex-studio: who may ask, command lines, files.
 $(BUILD)/tests/unit/test_studio: private TEST_LIBS += $(SERVE_LIBS)
-$(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line received media reply) $(BUILD)/obj/tools/http/headers.o
+$(BUILD)/tests/unit/test_studio: $(patsubst %,$(BUILD)/obj/tools/studio/%.o,gate places changes job_line project_parse received media reply) $(BUILD)/obj/tools/http/headers.o
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/common/json.o $(BUILD)/obj/tools/common/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

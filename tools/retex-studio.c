@@ -1,4 +1,5 @@
 /* retex-studio: a local web application around the tools. See retex-studio(1). */
+#include <errno.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 
 #include "common/cli.h"
 #include "studio/browser.h"
-#include "studio/http.h"
+#include "studio/studio.h"
 #include "common/watchdog.h"
 
 typedef struct Options {
@@ -72,6 +73,22 @@ static void close_studio(Studio *studio)
     watch_close(&studio->watch);
     places_close(&studio->places);
     changes_close(&studio->changes);
+}
+
+/* The address is the key to all that the user may do: a file that has it is for nobody else, whoever could read it
+ * before. */
+static void write_address(const Cli *cli, const char *address)
+{
+    RetexError err = {0};
+    struct stat info;
+    const char *output = cli->output ? cli->output : "-";
+    const int is_file = strcmp(output, "-") != 0 && stat(output, &info) == 0 && S_ISREG(info.st_mode);
+    if (is_file && chmod(output, 0600) != 0)
+        cli_die(cli, "cannot keep %s from others: %s", output, strerror(errno));
+    const mode_t before = umask(077);
+    if (retex_file_write(output, address, strlen(address), &err))
+        cli_fail(cli, &err);
+    umask(before);
 }
 
 /* ---- the thread that runs programs ---- */
@@ -143,8 +160,7 @@ int main(int argc, char **argv)
     watchdog_end_is_right(1);
     retex_budget_hold(cli.budget); /* programs may take their time to keep what they have */
     snprintf(address, sizeof address, "http://127.0.0.1:%d/%s/\n", studio.gate.port, studio.gate.token);
-    if (retex_file_write(cli.output ? cli.output : "-", address, strlen(address), &err))
-        cli_fail(&cli, &err);
+    write_address(&cli, address);
     if (!given.no_browser)
         browser_open(address, &opened);
     run(&cli, &studio);

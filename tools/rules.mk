@@ -143,8 +143,8 @@ $(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(SERVE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
-# retex-studio has the files of its page inside, as bytes.
-STUDIO_PAGE := tools/studio/web/index.html $(BUILD)/gen/studio.css $(BUILD)/gen/studio.js
+# retex-studio has the files of its page inside, as bytes; the player among them.
+STUDIO_PAGE := tools/studio/web/index.html $(BUILD)/gen/studio.css $(BUILD)/gen/studio.js $(BUILD)/gen/retex-room.js
 $(BUILD)/gen/studio.js: tools/studio/web/studio.js $(wildcard tools/studio/web/*.js) tools/rules.mk
 	@mkdir -p $(@D)
 	$(SAY)$(BUNDLE) --format=esm

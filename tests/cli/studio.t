@@ -1,6 +1,8 @@
 # retex-studio: who may ask, what is read and written, projects, jobs; studio/client.py has the checks.
-$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate browsers roots uploads thumbs
+$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio gate address strangers browsers roots uploads thumbs
 > gate
+> address
+> strangers
 > browsers
 > roots
 > uploads
@@ -20,6 +22,11 @@ $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio jobs 
 $ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio idle busy
 > idle
 > busy
+$ studio() { /usr/bin/python3 "$TESTS/../studio/client.py" "$@"; }; studio foreign options links served
+> foreign
+> options
+> links
+> served
 $ retex-studio none.glb --no-browser
 ! retex-studio: error: none.glb: No such file or directory
 = 2

@@ -81,7 +81,7 @@ static int receive(const char *name, const unsigned char *bytes, size_t size)
     static Received received;
     const char *folder = fresh("received");
     char path[PATH_MAX];
-    if (received_begin(&received, folder, name, size, NULL))
+    if (received_begin(&received, open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder, name, size, NULL))
         return 0;
     fuzz_must(received_bytes(&received, bytes, size / 2, NULL) == 0, "a half can be written");
     fuzz_must(received_bytes(&received, bytes + size / 2, size - size / 2, NULL) == 0, "the rest can be written");

@@ -5,7 +5,7 @@ import json
 import os
 import time
 
-from drive import TOP, Server, each, result, small_scene
+from drive import TOP, Server, each, own_project, result, small_scene
 from page import finish
 
 SMALL = {"width": 96, "height": 54, "samples": 2, "noise": 0, "denoise": False}
@@ -15,8 +15,7 @@ FOCUS = "(() => { let e = document.activeElement; while (e?.shadowRoot?.activeEl
 
 
 def write_project(work, **change):
-    with open(f"{work}/room.pov.studio.json", "w", encoding="utf-8") as file:
-        json.dump({"retex-studio": 1, "model": "room.pov", "render": SMALL, **change}, file)
+    own_project(work, small_scene(work), **{"render": SMALL, **change})
 
 
 # ---- axe ----

@@ -227,6 +227,14 @@ def small_scene(work, text=SCENE, name="room.pov"):
     return name
 
 
+def own_project(work, name, **members):
+    """A project of this model that the user's own studio has made."""
+    server = Server(work, model=name)
+    server.close()
+    with open(server.project_file, "w", encoding="utf-8") as file:
+        json.dump({"retex-studio": 1, "model": name, **members}, file)
+
+
 def each(checks):
     """Each check with a folder of its own, and with one browser; those that are named, or all."""
     page = Studio()

@@ -91,7 +91,7 @@ def play(page, server):
     page.go("#make-picture")
     page.wait("document.querySelector('.card a.button[download]')")
     page.go("#make-page")
-    page.wait("document.querySelector('#open-page')")
+    page.wait("document.querySelector('#page-made')")
     page.shot("studio-take")
     page.run("document.querySelector('#commands').open = true")
     lines = page.run("document.querySelector('#commands pre').textContent").splitlines()

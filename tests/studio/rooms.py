@@ -115,14 +115,13 @@ def walk_room(page, server, name, row, clean):
     page.go("#make-picture")
     walk.stage("picture", "document.querySelector('.card a.button[download]')", 300)
     page.go("#make-page")
-    walk.stage("page to take away", "document.querySelector('#open-page')", 300)
+    walk.stage("page to take away", "document.querySelector('#page-made')", 300)
     walk.shot("take")
     wrong = page.trouble()
     person = walk.told()
     project = page.saved(server)
-    render = project["renders"][0]["args"]
-    size = render[render.index("--size") + 1], render[render.index("--spp") + 1]
-    result(not wrong and size == ("1280x720", "64") and "--denoise" in render and person < 300,
+    render = project["renders"][0]["settings"]["render"]
+    result(not wrong and (render["width"], render["height"], render["samples"], render["denoise"]) == (1280, 720, 64, True) and person < 300,
            f"{name}: another floor and wall, in {person} s of a person")
     [made] = glob.glob(f"{server.work}/{server.folder}/web/*")
     visit(made, name)

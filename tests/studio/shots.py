@@ -10,7 +10,7 @@ import sys
 import tempfile
 import time
 
-from drive import TOP, Server, Studio
+from drive import TOP, Server, Studio, own_project
 
 SIZE, SAMPLES = os.environ.get("STUDIO_SIZE", "1280x720"), int(os.environ.get("STUDIO_SPP", "64"))
 WIDE = "960x600"  # of the recording's frames
@@ -165,9 +165,8 @@ def main(out):
             place = f"{TOP}/scenes/living-room/{name}"
             (shutil.copytree if os.path.isdir(place) else shutil.copy)(place, f"{work}/home/{name}")
         width, height = map(int, SIZE.split("x"))
-        with open(f"{work}/home/living-room.pov.studio.json", "w", encoding="utf-8") as file:
-            json.dump({"retex-studio": 1, "model": "living-room.pov", "render": {
-                "width": width, "height": height, "samples": SAMPLES, "noise": 0, "denoise": True}}, file)
+        own_project(f"{work}/home", "living-room.pov", render={
+            "width": width, "height": height, "samples": SAMPLES, "noise": 0, "denoise": True})
         server = Server(f"{work}/home", "--textures", f"{TOP}/scenes/textures")
         page = Recorder(work, out)
         try:

@@ -1,13 +1,12 @@
 """What goes wrong while one works in the page of retex-studio, as TAP: each ends in a plain message, and nothing is lost.
 Arguments choose checks by their names. RETEX_WEB_SHOTS is a folder for pictures of the page."""
-import json
 import os
 import resource
 import signal
 import sys
 import time
 
-from drive import SCENE, Server, Studio, each, result, small_scene
+from drive import SCENE, Server, Studio, each, own_project, result, small_scene
 from page import finish
 
 FLOOR, WALL, BALL = (0.2, 0.9), (0.1, 0.2), (0.5, 0.5)
@@ -16,10 +15,10 @@ LONG = {"width": 640, "height": 360, "samples": 4096, "noise": 0, "denoise": Fal
 
 def begin(page, work, *arguments, text=SCENE, step="surfaces", **change):
     """A server with the small scene, whose project may have been changed, and its page in a step."""
+    name = small_scene(work, text)
     if change:
-        with open(f"{work}/room.pov.studio.json", "w", encoding="utf-8") as file:
-            json.dump({"retex-studio": 1, "model": "room.pov", **change}, file)
-    server = Server(work, *arguments, model=small_scene(work, text))
+        own_project(work, name, **change)
+    server = Server(work, *arguments, model=name)
     page.open_studio(server, "View")
     if step != "view":
         page.go(f"#step-{step}")

@@ -14,18 +14,25 @@ test("a render has all that was chosen", () => {
   same(c.nextSet(room), "my room.glb.studio/renders/1.exr");
   same(c.nextSet({ ...room, renders: [{ set: "my room.glb.studio/renders/9.exr" }, { set: "x" }] }), "my room.glb.studio/renders/10.exr");
   same(c.renderArgs(room, "s.exr"), ["-t", "Floor=#3/flat:1:uv=planar", "-t", "Wall=Walls", "-l", "Lamp", "--finish", "Floor=matt,satin", "--camera", "1,2,3:0,1,0:65",
-    "--size", "1280x720", "--spp", "64", "--denoise", "--resume", "--progress", "json", "-o", "s.exr", "my room.glb.studio/scene/scene.pov"]);
+    "--size", "1280x720", "--spp", "64", "--denoise", "--resume", "--progress", "json", "-o", "s.exr", "--", "my room.glb.studio/scene/scene.pov"]);
   const plain = c.renderArgs({ ...room, model: "a.pov", view: null, render: { ...room.render, samples: 1, noise: 0.05 } }, "s.exr");
-  same(plain.slice(-9), ["--spp", "1", "--noise", "0.05", "--resume", "--progress", "json", "-o", "s.exr", "a.pov"].slice(-9));
+  same(plain.slice(-9), ["--noise", "0.05", "--resume", "--progress", "json", "-o", "s.exr", "--", "a.pov"]);
   same([plain.includes("--camera"), plain.includes("--denoise")], [false, false]);
 });
 
 test("an import has what was said, and goes into the project's folder", () => {
-  same(c.importArgs({ ...room, import: { unit: "cm", camera: "inside", done: true, lines: ["x"], partial: true } }), ["--camera", "inside", "--unit", "cm", "--partial", "--force", "-o", "my room.glb.studio/scene", "my room.glb"]);
+  same(c.importArgs({ ...room, import: { unit: "cm", camera: "inside", done: true, lines: ["x"], partial: true } }), ["--camera", "inside", "--unit", "cm", "--partial", "--force", "-o", "my room.glb.studio/scene", "--", "my room.glb"]);
+});
+
+test("names stand behind the options, also those that look like one", () => {
+  const model = "--help", project = { ...room, model }, set = "-o.exr";
+  const lines = [c.importArgs(project), c.variantListArgs(project), c.renderArgs({ ...project, model: "-x.pov" }, set), c.trialArgs(project, 100, "t"), c.cropArgs(project, [0, 0, 1, 1], "t"),
+    c.lampListArgs(project), c.finishListArgs(project), c.webArgs(set, "w"), c.pageArgs(set, "w", "p", true), c.packArgs(set, "p"), c.pictureArgs(set, "Floor=tomato", "p", "640x"), c.catalogueArgs(set, "t", "r", "")];
+  for (const line of lines) same([line.indexOf("--"), line.length - 2 - line.indexOf("--")], [line.length - 2, 0], line.join(" "));
 });
 
 test("trials and parts are of the same scene", () => {
-  same(c.trialArgs(room, 100, "t.exr").slice(-12), ["1,2,3:0,1,0:65", "--size", "100x56", "--spp", "4", "--denoise", "--stats", "-", "-q", "-o", "t.exr", "my room.glb.studio/scene/scene.pov"]);
+  same(c.trialArgs(room, 100, "t.exr").slice(-13), ["1,2,3:0,1,0:65", "--size", "100x56", "--spp", "4", "--denoise", "--stats", "-", "-q", "-o", "t.exr", "--", "my room.glb.studio/scene/scene.pov"]);
   const part = c.cropArgs(room, [10, 20, 30, 40], "p.png");
   same([part.includes("-l"), part.includes("--finish"), part[part.indexOf("--crop") + 1]], [false, false, "10,20,30,40"]);
 });
@@ -37,13 +44,13 @@ test("words of a shell are read by a shell as they were", () => {
 });
 
 test("the commands of a project, as they were run", () => {
-  const set = "my room.glb.studio/renders/1.exr", done = { ...room, renders: [{ set, args: c.renderArgs(room, set), done: true }], look: "Floor=tomato" };
+  const set = "my room.glb.studio/renders/1.exr", done = { ...room, renders: [{ set, settings: c.settingsOf(room), done: true }], lamps: ["Later"], look: "Floor=tomato" };
   const lines = c.commandsOf(done).map((l) => l.line);
   same(lines.map((l) => l.split(" ")[0]), ["retex-import", "retex-render", "retex-combine", "retex-pack"]);
-  same(lines.slice(2).map((l) => l.replaceAll("my room.glb.studio", "S")), ["retex-combine -q 'S/renders/1.exr' --texture Floor=tomato -o 'S/picture.png' --save-preset 'S/look.json'",
-    "retex-pack -q 'S/renders/1.exr' --preset 'S/look.json' --web-smaller 2,4 --web 'S/web/1'"]);
-  same(c.commandsOf({ ...emptyProject("x.retex"), renders: [{ set: "x.retex", args: [], done: true }] }).map((l) => l.line), ["retex-combine -q x.retex -o x.retex.studio/picture.png", "retex-pack -q x.retex --web x.retex.studio/web/x"]);
-  same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.glb.studio/renders/1.exr'")], [false, false, true]);
+  same(lines.slice(2).map((l) => l.replaceAll("my room.glb.studio", "S")), ["retex-combine --save-preset 'S/look.json' -q --texture Floor=tomato -o 'S/picture.png' -- 'S/renders/1.exr'",
+    "retex-pack -q --preset 'S/look.json' --web-smaller 2,4 --web 'S/web/1' -- 'S/renders/1.exr'"]);
+  same(c.commandsOf(emptyProject("x.retex")).map((l) => l.line), ["retex-combine -q -o x.retex.studio/picture.png -- x.retex", "retex-pack -q --web x.retex.studio/web/x -- x.retex"]);
+  same([lines[1].includes("--progress"), lines[1].includes("json"), lines[1].includes("'my room.glb.studio/renders/1.exr'"), lines[1].includes("-l Lamp "), lines[1].includes("Later")], [false, false, true, true, false]);
 });
 
 test("addresses of files, and back", () => {

@@ -18,15 +18,6 @@ test("a project that was written is read, with what it lacks, and keeps what is 
   same(readProject(JSON.parse(JSON.stringify(project())), "x"), project());
 });
 
-test("what is no project is told", async () => {
-  for (const other of [null, [], "x", {}, { model: "room.glb" }]) await fails(() => readProject(other, "m"), "This is not a project of retex studio.");
-  await fails(() => readProject({ "retex-studio": 2 }, "m"), /newer/);
-  const wrong = { model: "", view: { eye: [0, 0], at: [0, 0, 0], angle: 70 }, cameras: [{}], targets: [{ name: "A" }], lamps: [1], finishes: { A: "matt" },
-    render: { width: 1e6, height: 10, samples: 1, noise: 0 }, renders: [{}], textures: {}, look: null, presets: [{ name: "a" }], import: [] };
-  for (const [name, value] of Object.entries(wrong)) await fails(() => readProject({ "retex-studio": 1, [name]: value }, "m"), `The project is damaged: "${name}" is not as it should be.`, name);
-  for (const angle of [0, 180, NaN, "x"]) await fails(() => readProject({ "retex-studio": 1, view: { eye: [0, 0, 0], at: [0, 0, 1], angle } }, "m"), /"view"/);
-});
-
 test("steps are undone and done again; a new one ends what could be done again", () => {
   let h = newHistory(project());
   same([undone(h), redone(h), undoLabel(h), redoLabel(h)], [h, h, "", ""]);

@@ -252,18 +252,24 @@ static uint64_t write_rights(int version)
     return MAY_WRITE_FILE | MAY_CHANGE_NAMES | (version >= 2 ? MAY_REFER : 0) | (version >= 3 ? MAY_TRUNCATE : 0);
 }
 
-/* Allow what is handled below a path; of a file, what goes for files. */
-static int allow_below(int set, const char *path, uint64_t rights)
+/* Allow what is handled below an open folder; of a file, what goes for files. */
+static int allow_below(int set, int folder, uint64_t rights)
 {
-    struct beneath rule = {rights, open(path, O_PATH | O_CLOEXEC)};
-    const int is_done = rule.folder >= 0 && syscall(__NR_landlock_add_rule, set, RULE_BENEATH, &rule, 0) == 0;
-    if (rule.folder >= 0)
-        close(rule.folder);
+    const struct beneath rule = {rights, folder};
+    return syscall(__NR_landlock_add_rule, set, RULE_BENEATH, &rule, 0) == 0;
+}
+
+static int allow_device(int set, const char *path, uint64_t rights)
+{
+    const int device = open(path, O_PATH | O_CLOEXEC);
+    const int is_done = device >= 0 && allow_below(set, device, rights);
+    if (device >= 0)
+        close(device);
     return is_done;
 }
 
-/* Forbid what is handled but below a folder, or everywhere. */
-static int restrict_files(int may_read, const char *folder, const char *device)
+/* Forbid what is handled but below an open folder, or, where that is -1, everywhere. */
+static int restrict_files(int may_read, int folder, const char *device)
 {
     const int version = (int)syscall(__NR_landlock_create_ruleset, NULL, 0, 1);
     if (version < 1)
@@ -276,8 +282,8 @@ static int restrict_files(int may_read, const char *folder, const char *device)
     if (set < 0)
         return 0;
     const int is_done =
-        (!folder || allow_below(set, folder, write_rights(version))) &&
-        (!device || allow_below(set, device, write_rights(version) & (MAY_WRITE_FILE | MAY_TRUNCATE))) &&
+        (folder < 0 || allow_below(set, folder, write_rights(version))) &&
+        (!device || allow_device(set, device, write_rights(version) & (MAY_WRITE_FILE | MAY_TRUNCATE))) &&
         prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && syscall(__NR_landlock_restrict_self, set, 0) == 0;
     close(set);
     return is_done;
@@ -285,17 +291,20 @@ static int restrict_files(int may_read, const char *folder, const char *device)
 
 int confine_to_open_files(void)
 {
-    const int files = restrict_files(0, NULL, NULL); /* first: the filter forbids it */
+    const int files = restrict_files(0, -1, NULL); /* first: the filter forbids it */
     return (files ? CONFINE_FILES : 0) | (allow_open_files() ? CONFINE_CALLS : 0);
 }
 
 int confine_to_folder(const char *folder)
 {
-    const int files = restrict_files(1, folder, NULL);
+    const int open_folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    const int files = open_folder >= 0 && restrict_files(1, open_folder, NULL);
+    if (open_folder >= 0)
+        close(open_folder);
     return (files ? CONFINE_FILES : 0) | (allow_files() ? CONFINE_CALLS : 0);
 }
 
-int confine_writes_to(const char *folder)
+int confine_writes_to(int folder)
 {
     return restrict_files(1, folder, "/dev/null") ? CONFINE_FILES : 0; /* decoders get it as standard error */
 }

@@ -16,10 +16,10 @@ int confine_to_open_files(void);
  * below one folder; without Landlock, wherever the user may. No sockets, no programs. */
 int confine_to_folder(const char *folder);
 
-/* Only of files: to make, change and remove them below one folder, and to write to /dev/null. It may start programs,
- * which are confined as it is, but not use the network. Without Landlock nothing is forbidden: 0. May be called between
- * fork(2) and execve(2) in a process with threads. */
-int confine_writes_to(const char *folder);
+/* Only of files: to make, change and remove them below an open folder, whatever has its name by then, and to write to
+ * /dev/null. It may start programs, which are confined as it is, but not use the network. Without Landlock nothing is
+ * forbidden: 0. May be called between fork(2) and execve(2) in a process with threads. */
+int confine_writes_to(int folder);
 
 /* Lower a limit of setrlimit(2), as far as it is not lower. */
 void confine_limit(int what, uint64_t most);

@@ -79,7 +79,7 @@ static _Noreturn void become(const ChildParams *params, const Pipes *pipes, char
     sigprocmask(SIG_SETMASK, &none, NULL);
     setpriority(PRIO_PROCESS, 0, params->nice);
     if (params->writes)
-        (void)confine_writes_to(params->writes);
+        (void)confine_writes_to(params->writes_folder);
     if (chdir(params->folder) == 0)
         execve(params->words[0], params->words, variables);
     static const char why[] = "retex-studio: error: the program cannot be started\n";

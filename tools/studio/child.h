@@ -23,6 +23,7 @@ typedef struct ChildParams {
     char *const *words; /* the first is the path of the program; end with NULL */
     const char *folder; /* that it runs in */
     const char *writes; /* that it may write below; NULL: wherever the user may */
+    int writes_folder;  /* that folder, open */
     int is_fed;         /* 1: it gets a pipe as standard input */
     int nice;           /* 0 to 19 */
 } ChildParams;

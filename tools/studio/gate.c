@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 
 int gate_open(Gate *gate, RetexError *err)
 {
@@ -51,4 +52,44 @@ const char *gate_enter(const Gate *gate, const char *url, const char *host, cons
     else
         return url + GATE_TOKEN + 2;
     return NULL;
+}
+
+/* ---- connections without the token ---- */
+
+void strangers_open(Strangers *strangers)
+{
+    *strangers = (Strangers){0};
+    pthread_mutex_init(&strangers->lock, NULL);
+}
+
+void strangers_close(Strangers *strangers)
+{
+    pthread_mutex_destroy(&strangers->lock);
+}
+
+static void remove_at(Strangers *strangers, int at)
+{
+    strangers->count--;
+    memmove(strangers->sockets + at, strangers->sockets + at + 1,
+            (size_t)(strangers->count - at) * sizeof *strangers->sockets);
+}
+
+void strangers_add(Strangers *strangers, int socket)
+{
+    pthread_mutex_lock(&strangers->lock);
+    if (strangers->count == STRANGERS_MOST) {
+        shutdown(strangers->sockets[0], SHUT_RDWR); /* whoever waits for it finds its end, and closes it */
+        remove_at(strangers, 0);
+    }
+    strangers->sockets[strangers->count++] = socket;
+    pthread_mutex_unlock(&strangers->lock);
+}
+
+void strangers_remove(Strangers *strangers, int socket)
+{
+    pthread_mutex_lock(&strangers->lock);
+    for (int i = strangers->count - 1; i >= 0; i--)
+        if (strangers->sockets[i] == socket)
+            remove_at(strangers, i);
+    pthread_mutex_unlock(&strangers->lock);
 }

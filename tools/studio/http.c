@@ -1,5 +1,5 @@
-/* See http.h. */
-#include "http.h"
+/* See studio.h. */
+#include "request.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -13,15 +13,14 @@
 
 enum { CONNECTIONS = 200, SILENT_SECONDS = 120, TEXT_BYTES = 4 << 20, REST = 4096 };
 
-/* Scripts are the server's own; styles and pictures of the player are also made by it. */
-#define POLICY                                                                                                         \
-    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "            \
-    "connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+/* Of all but the page: what is sent is data, also where a window is led to it. */
+#define POLICY "default-src 'none'; sandbox; frame-ancestors 'none'"
 
 struct Http {
     Studio *studio;
     struct MHD_Daemon *daemon;
     atomic_int exchanges; /* requests that have no complete answer yet */
+    Strangers strangers;
 };
 
 /* A request that is being received. */
@@ -120,6 +119,25 @@ static void keep_body(Exchange *exchange, const char *data, size_t bytes)
     }
 }
 
+/* ---- connections ---- */
+
+static int socket_of(struct MHD_Connection *connection)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+    return info ? info->connect_fd : -1;
+}
+
+static void look_at_connection(void *context, struct MHD_Connection *connection, void **state,
+                               enum MHD_ConnectionNotificationCode what)
+{
+    Http *http = context;
+    (void)state;
+    if (what == MHD_CONNECTION_NOTIFY_STARTED)
+        strangers_add(&http->strangers, socket_of(connection));
+    else
+        strangers_remove(&http->strangers, socket_of(connection));
+}
+
 /* ---- answers ---- */
 
 static enum MHD_Result send_reply(struct MHD_Connection *connection, Reply reply)
@@ -129,7 +147,8 @@ static enum MHD_Result send_reply(struct MHD_Connection *connection, Reply reply
     reply_header(&reply, "X-Content-Type-Options", "nosniff");
     reply_header(&reply, "Referrer-Policy", "no-referrer");
     reply_header(&reply, "Cross-Origin-Resource-Policy", "same-origin");
-    reply_header(&reply, "Content-Security-Policy", POLICY);
+    if (!MHD_get_response_header(reply.response, "Content-Security-Policy"))
+        reply_header(&reply, "Content-Security-Policy", POLICY);
     if (!MHD_get_response_header(reply.response, "Cache-Control"))
         reply_header(&reply, "Cache-Control", "no-store");
     const enum MHD_Result result = MHD_queue_response(connection, (unsigned)reply.status, reply.response);
@@ -157,6 +176,7 @@ static enum MHD_Result handle(void *context, struct MHD_Connection *connection, 
         exchange->request = (Request){.studio = http->studio, .connection = connection, .method = method};
         if (refuse_head(exchange, version) || refuse_stranger(exchange, url) || refuse_path(exchange))
             return send_refusal(exchange);
+        strangers_remove(&http->strangers, socket_of(connection));
         return MHD_YES;
     }
     exchange->request.connection = connection;
@@ -195,11 +215,12 @@ int http_open(Http **http, Studio *studio, int port, RetexError *err)
     *http = calloc(1, sizeof **http);
     if (*http) {
         (*http)->studio = studio;
+        strangers_open(&(*http)->strangers);
         (*http)->daemon = MHD_start_daemon(
             MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_THREAD_PER_CONNECTION | MHD_USE_POLL | MHD_USE_ITC, 0, NULL, NULL,
             handle, *http, MHD_OPTION_LISTEN_SOCKET, file, MHD_OPTION_NOTIFY_COMPLETED, complete, *http,
-            MHD_OPTION_CONNECTION_LIMIT, (unsigned)CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENT_SECONDS,
-            MHD_OPTION_END);
+            MHD_OPTION_NOTIFY_CONNECTION, look_at_connection, *http, MHD_OPTION_CONNECTION_LIMIT, (unsigned)CONNECTIONS,
+            MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENT_SECONDS, MHD_OPTION_END);
     }
     if (*http && (*http)->daemon)
         return RETEX_OK;
@@ -221,6 +242,7 @@ void http_close(Http **http)
     MHD_stop_daemon((*http)->daemon);
     if (file != MHD_INVALID_SOCKET)
         close(file);
+    strangers_close(&(*http)->strangers);
     free(*http);
     *http = NULL;
 }

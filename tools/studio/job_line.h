@@ -1,4 +1,6 @@
-/* The command line of a job: which tools there are, and what is put before their arguments. */
+/* The command line of a job: which tools and options there are, and what is put before them. A window asks for what it
+ * needs and nothing else: an option is of the table in job_line.c, names stand behind `--`, and outputs lie in the
+ * folder that is written to, in which there is no link. */
 #ifndef RETEX_STUDIO_JOB_LINE_H
 #define RETEX_STUDIO_JOB_LINE_H
 
@@ -20,11 +22,11 @@ typedef struct Line {
     int count;
 } Line;
 
-/* The line of a tool with the arguments of a JSON array. RETEX_EINVAL: no such tool, arguments that are no texts, or
- * an output that lies outside of the folder that is written to, whose folders are made. */
+/* The line of a tool with the arguments of a JSON array: options, `--`, names. RETEX_EINVAL: they are not as above. The
+ * folders of outputs are made. */
 int line_make(Line *line, const char *tool, const json_t *args, const ProgramLimits *limits, const Model *model,
               RetexError *err);
-/* The same of `retex-render --live` for a scene. */
+/* The same of `retex-render --live` for a scene; args are options alone. */
 int line_make_live(Line *line, const char *scene, const json_t *args, const ProgramLimits *limits, const Model *model,
                    RetexError *err);
 void line_free(Line *line);

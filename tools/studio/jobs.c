@@ -231,6 +231,7 @@ static void start(Jobs *jobs, Job *job)
     const ChildParams params = {.words = job->line.words,
                                 .folder = job->model->folder,
                                 .writes = job->is_confined ? job->model->written : NULL,
+                                .writes_folder = job->model->top,
                                 .nice = NICE};
     RetexError err = {0};
     job->started = retex_clock_seconds();

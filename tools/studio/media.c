@@ -11,30 +11,25 @@
 #include "common/picture_kind.h"
 #include "http/headers.h"
 
+/* What the page is made of. */
 static const struct {
     const char *ending, *type;
-    int is_own; /* 1: of other folders it is only bytes */
-} types[] = {
-    {".html", "text/html; charset=utf-8", 1},
-    {".js", "text/javascript; charset=utf-8", 1},
-    {".css", "text/css; charset=utf-8", 1},
-    {".json", "application/json", 0},
-    {".txt", "text/plain; charset=utf-8", 0},
-    {".md", "text/plain; charset=utf-8", 0},
-    {".csv", "text/csv; charset=utf-8", 0},
-    {".glb", "model/gltf-binary", 0},
-    {".gltf", "model/gltf+json", 0},
-    {".zip", "application/zip", 0},
+} page_types[] = {
+    {".html", "text/html; charset=utf-8"},
+    {".js", "text/javascript; charset=utf-8"},
+    {".css", "text/css; charset=utf-8"},
 };
 
-const char *media_type(const char *name, int is_own)
+const char *media_type(const char *name, int is_page)
 {
     const char *dot = strrchr(name, '.');
-    for (size_t k = 0; dot && k < sizeof types / sizeof *types; k++)
-        if (strcasecmp(dot, types[k].ending) == 0 && (is_own || !types[k].is_own))
-            return types[k].type;
     const PictureKind *picture = picture_kind_of_name(name);
-    return picture ? picture->type : "application/octet-stream";
+    for (size_t k = 0; is_page && dot && k < sizeof page_types / sizeof *page_types; k++)
+        if (strcmp(dot, page_types[k].ending) == 0)
+            return page_types[k].type;
+    return dot && strcasecmp(dot, ".json") == 0 ? "application/json"
+           : picture                            ? picture->type
+                                                : "application/octet-stream";
 }
 
 static Reply no_part(off_t size)
@@ -65,10 +60,10 @@ Reply media_file(const Request *request, int descriptor, const char *type)
         close(descriptor);
     if (part == RANGE_OUTSIDE && !is_seen)
         return no_part(info.st_size);
-    Reply reply = is_seen              ? reply_constant(type, "", 0)
-                  : part == RANGE_SOME ? reply_file(MHD_HTTP_PARTIAL_CONTENT, type, descriptor, (off_t)first,
-                                                    (off_t)(last - first + 1))
-                                       : reply_file(MHD_HTTP_OK, type, descriptor, 0, info.st_size);
+    Reply reply = is_seen ? reply_constant(type, "", 0)
+                  : part == RANGE_SOME
+                      ? reply_file(MHD_HTTP_PARTIAL_CONTENT, type, descriptor, (off_t)first, (off_t)(last - first + 1))
+                      : reply_file(MHD_HTTP_OK, type, descriptor, 0, info.st_size);
     if (is_seen)
         reply.status = MHD_HTTP_NOT_MODIFIED;
     snprintf(text, sizeof text, "bytes %zu-%zu/%lld", first, last, (long long)info.st_size);

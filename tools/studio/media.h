@@ -4,9 +4,9 @@
 
 #include "request.h"
 
-/* The media type of a file by its name; is_own: below the folder that the tools write to, where scripts are those of
- * retex-pack --web. */
-const char *media_type(const char *name, int is_own);
+/* The media type of a file by its name: that of a picture, or of JSON, or only bytes. is_page: it is of the program's
+ * own page, which alone has documents and scripts. */
+const char *media_type(const char *name, int is_page);
 /* An open file, which is closed: whole, a part of it as the header Range says, or nothing where the window has it. */
 Reply media_file(const Request *request, int descriptor, const char *type);
 

@@ -2,18 +2,30 @@
 #include "places.h"
 
 #include <errno.h>
-#include <jansson.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/beneath.h"
+#include "received.h"
+
 #define PROJECT_END ".studio.json"
 
 static int no_memory(RetexError *err)
 {
     return retex_fail(err, RETEX_ENOMEM, "not enough memory");
+}
+
+/* What servers that were killed have left of files that were sent. */
+static void tidy(int folder)
+{
+    if (folder < 0)
+        return;
+    received_tidy(folder);
+    close(folder);
 }
 
 int places_open(Places *places, Changes *changes, RetexError *err)
@@ -29,7 +41,10 @@ int places_open(Places *places, Changes *changes, RetexError *err)
     const char *base = places->home ? places->home : current ? current : ".";
     const int failed = asprintf(&places->dropped, "%s/retex-studio", base) < 0;
     free(current);
-    return failed ? no_memory(err) : RETEX_OK;
+    if (failed)
+        return no_memory(err);
+    tidy(open(places->dropped, O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    return RETEX_OK;
 }
 
 static void free_model(Model *model)
@@ -39,6 +54,8 @@ static void free_model(Model *model)
     free(model->folder);
     free(model->written);
     free(model->project);
+    if (model->top >= 0)
+        close(model->top);
     free(model);
 }
 
@@ -62,28 +79,84 @@ const Model *places_model(Places *places)
     return model;
 }
 
-/* ---- opening ---- */
+/* ---- folders that are the user's ---- */
 
-static int is_project(const char *path)
+/* Which folders the user's studio has made, or was told to go on with, stands in a list in the user's own folder of
+ * data, where no archive of a stranger reaches. A folder is known by its path, its number and when it was made, so one
+ * of the same name that comes later is another. Where the list cannot be read or written, none is known. */
+
+/* The list's path, by the rule for data of programs. 0: there is none. */
+static int find_list(char list[PATH_MAX])
 {
-    const size_t length = strlen(path), end = strlen(PROJECT_END);
-    return length > end && strcmp(path + length - end, PROJECT_END) == 0;
+    const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    const int has_data = data && *data == '/';
+    if (!has_data && (!home || *home != '/'))
+        return 0;
+    return snprintf(list, PATH_MAX, "%s%s/retex/studio-folders", has_data ? data : home,
+                    has_data ? "" : "/.local/share") < PATH_MAX;
 }
 
-/* The model of a project: its path relative to that of the project. */
-static char *model_of_project(const char *project, RetexError *err)
+/* The folder's line of the list, which the caller frees; NULL: it can have none. */
+static char *line_of(int folder, const char *path)
 {
-    json_error_t fault;
-    json_t *root = json_load_file(project, JSON_REJECT_DUPLICATES, &fault);
-    const char *model = json_string_value(json_object_get(root, "model"));
-    char *path = NULL;
-    if (!model)
-        retex_fail(err, RETEX_EPARSE, "%s: this is no project: it names no model", project);
-    else if (asprintf(&path, "%.*s%s", *model == '/' ? 0 : (int)(strrchr(project, '/') + 1 - project), project, model) <
-             0)
-        path = NULL, no_memory(err);
-    json_decref(root);
-    return path;
+    struct statx info;
+    char *line;
+    if (strchr(path, '\n') || statx(folder, "", AT_EMPTY_PATH, STATX_INO | STATX_BTIME, &info) != 0)
+        return NULL;
+    if (!(info.stx_mask & STATX_BTIME))
+        info.stx_btime = (struct statx_timestamp){0};
+    return asprintf(&line, "%llx %llx.%x %s\n", (unsigned long long)info.stx_ino,
+                    (unsigned long long)info.stx_btime.tv_sec, info.stx_btime.tv_nsec, path) < 0
+               ? NULL
+               : line;
+}
+
+static int is_known_folder(int folder, const char *path)
+{
+    char list[PATH_MAX], *line = NULL, *wanted = line_of(folder, path);
+    size_t space = 0;
+    int has = 0;
+    FILE *file = wanted && find_list(list) ? fopen(list, "re") : NULL;
+    while (file && !has && getline(&line, &space, file) > 0)
+        has = strcmp(line, wanted) == 0;
+    if (file)
+        fclose(file);
+    free(line);
+    free(wanted);
+    return has;
+}
+
+static void know_folder(int folder, const char *path)
+{
+    char list[PATH_MAX], *line = line_of(folder, path);
+    if (!line || !find_list(list)) {
+        free(line);
+        return;
+    }
+    for (char *slash = strchr(list + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        (void)mkdir(list, 0700);
+        *slash = '/';
+    }
+    const int file = open(list, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
+    if (file >= 0) {
+        (void)!write(file, line, strlen(line)); /* in one piece: others may add at the same time */
+        close(file);
+    }
+    free(line);
+}
+
+/* ---- opening ---- */
+
+/* Cut `.studio.json` off the path of a project: what is left is its model, beside it. */
+static int cut_project_end(char *path)
+{
+    const size_t length = strlen(path), end = strlen(PROJECT_END);
+    const int is_project =
+        length > end && strcmp(path + length - end, PROJECT_END) == 0 && path[length - end - 1] != '/';
+    if (is_project)
+        path[length - end] = 0;
+    return is_project;
 }
 
 /* The file of a path, by its real name. */
@@ -95,11 +168,10 @@ static char *find_file(const char *path, RetexError *err)
         retex_fail(err, RETEX_ENOTFOUND, "%s: %s", path, strerror(errno));
     } else if (!S_ISREG(info.st_mode)) {
         retex_fail(err, RETEX_EINVAL, "%s: this is no file", path);
-    } else if (is_project(real)) {
-        char *named = model_of_project(real, err), *model = named ? realpath(named, NULL) : NULL;
-        if (named && !model)
-            retex_fail(err, RETEX_ENOTFOUND, "%s: its model %s is not there", path, named);
-        free(named);
+    } else if (cut_project_end(real)) {
+        char *model = realpath(real, NULL);
+        if (!model)
+            retex_fail(err, RETEX_ENOTFOUND, "%s: its model %s is not there", path, strrchr(real, '/') + 1);
         free(real);
         return model;
     } else {
@@ -109,48 +181,26 @@ static char *find_file(const char *path, RetexError *err)
     return NULL;
 }
 
-/* Name project and folder after so many bytes of the model's path. 0: no memory. */
-static int name_project(Model *model, size_t length)
-{
-    free(model->written);
-    free(model->project);
-    model->written = model->project = NULL;
-    if (asprintf(&model->written, "%.*s.studio", (int)length, model->path) < 0)
-        model->written = NULL;
-    if (asprintf(&model->project, "%.*s" PROJECT_END, (int)length, model->path) < 0)
-        model->project = NULL;
-    return model->written && model->project;
-}
-
-static int is_file(const char *path)
+/* Open the folder that is written to, and see whose it is. */
+static int open_written(Model *model, RetexError *err)
 {
     struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
-}
-
-/* Whether the project that the model has by its name is there, and is of this model. */
-static int has_project(const Model *model)
-{
-    char *named = is_file(model->project) ? model_of_project(model->project, NULL) : NULL;
-    char *real = named ? realpath(named, NULL) : NULL;
-    const int is_own = real && strcmp(real, model->path) == 0;
-    free(named);
-    free(real);
-    return is_own;
-}
-
-/* `room.glb.studio.json`; but `room.studio.json`, as it was called once, where that alone is there, and of this
- * model. */
-static int find_project(Model *model)
-{
-    const size_t whole = strlen(model->path), stem = whole - strlen(model->name);
-    const char *dot = strrchr(model->name, '.');
-    if (!name_project(model, whole))
-        return 0;
-    if (!dot || dot == model->name || access(model->project, F_OK) == 0)
-        return 1;
-    return name_project(model, stem + (size_t)(dot - model->name)) &&
-           (has_project(model) || name_project(model, whole));
+    const int is_new = lstat(model->written, &info) != 0, has_project = lstat(model->project, &info) == 0;
+    model->top = beneath_open_top(model->written, 1);
+    if (model->top < 0 && errno == ELOOP)
+        return retex_fail(err, RETEX_EACCESS,
+                          "%s is a link: retex-studio writes into a folder of its own; remove the link",
+                          model->written);
+    if (model->top < 0 || fstat(model->top, &info) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot open the folder %s: %s", model->written, strerror(errno));
+    tidy(beneath_open(model->top, PLACES_FILES, O_RDONLY | O_DIRECTORY, 0));
+    if (is_new && !has_project)
+        know_folder(model->top, model->written);
+    else if (info.st_uid != geteuid())
+        model->foreign = "its folder is another user's";
+    else if (!is_known_folder(model->top, model->written))
+        model->foreign = "your retex-studio has not made its folder";
+    return RETEX_OK;
 }
 
 static Model *new_model(char *path, RetexError *err)
@@ -165,9 +215,14 @@ static Model *new_model(char *path, RetexError *err)
     model->path = path;
     model->name = strdup(slash);
     model->folder = strndup(path, slash - path > 1 ? (size_t)(slash - path - 1) : 1);
-    if (!model->name || !model->folder || !find_project(model)) {
+    model->top = -1;
+    if (asprintf(&model->written, "%s.studio", path) < 0)
+        model->written = NULL;
+    if (asprintf(&model->project, "%s" PROJECT_END, path) < 0)
+        model->project = NULL;
+    const int has_all = model->name && model->folder && model->written && model->project;
+    if (has_all ? open_written(model, err) : no_memory(err)) {
         free_model(model);
-        no_memory(err);
         return NULL;
     }
     return model;
@@ -188,6 +243,32 @@ int places_open_model(Places *places, const char *path, RetexError *err)
     places->model = model;
     changes_unlock(places->changes);
     return RETEX_OK;
+}
+
+int places_trust(Places *places, const char *path, RetexError *err)
+{
+    changes_lock(places->changes);
+    Model *model = places->model;
+    const int is_open = model && strcmp(model->path, path) == 0;
+    if (is_open)
+        model->foreign = NULL;
+    changes_unlock(places->changes);
+    if (!is_open)
+        return retex_fail(err, RETEX_ENOTFOUND, "%s is not open", path);
+    know_folder(model->top, model->written);
+    return RETEX_OK;
+}
+
+int places_check_trust(Places *places, const Model *model, RetexError *err)
+{
+    changes_lock(places->changes);
+    const char *why = model ? model->foreign : NULL;
+    changes_unlock(places->changes);
+    if (!model)
+        return retex_fail(err, RETEX_EINVAL, "no model is open");
+    return !why ? RETEX_OK
+                : retex_fail(err, RETEX_EACCESS, "%s may come from a stranger, for %s: agree first to go on with it",
+                             model->name, why);
 }
 
 int places_add_textures(Places *places, const char *path, RetexError *err)
@@ -230,11 +311,11 @@ void places_access(Places *places, Reach reach, ReachAccess *access)
         add_root(access, places->textures[i]);
     changes_unlock(places->changes);
     if (model && reach != REACH_LISTED)
-        add_root(access, realpath(model->written, access->resolved[0]));
+        add_root(access, model->written);
     if (reach == REACH_LISTED) {
         add_root(access, model ? model->folder : NULL);
         add_root(access, places->home);
-        add_root(access, realpath(places->dropped, access->resolved[1]));
+        add_root(access, realpath(places->dropped, access->resolved));
     }
 }
 
@@ -260,14 +341,5 @@ int places_resolve(Places *places, const char *path, char absolute[PATH_MAX], Re
         return retex_fail(err, RETEX_EINVAL, "this path is too long");
     if (has_hidden_part(path + own))
         return retex_fail(err, RETEX_EACCESS, "hidden files and paths that lead upwards are not shown");
-    return RETEX_OK;
-}
-
-int places_make_written(const Model *model, RetexError *err)
-{
-    if (!model)
-        return retex_fail(err, RETEX_EINVAL, "no model is open");
-    if (mkdir(model->written, 0777) != 0 && errno != EEXIST)
-        return retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", model->written, strerror(errno));
     return RETEX_OK;
 }

@@ -309,6 +309,7 @@ static void start_next(Preview *preview)
     const ChildParams params = {.words = preview->next.words,
                                 .folder = preview->next_model->folder,
                                 .writes = preview->next_is_confined ? preview->next_model->written : NULL,
+                                .writes_folder = preview->next_model->top,
                                 .is_fed = 1,
                                 .nice = NICE};
     said_free(&preview->said);

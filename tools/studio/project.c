@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +59,7 @@ int project_read(const Model *model, char **text, size_t *bytes, char etag[PROJE
     *etag = 0;
     if (!model)
         return retex_fail(err, RETEX_ENOTFOUND, "no model is open");
-    const int file = open(model->project, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    const int file = open(model->project, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW);
     if (file < 0 && errno == ENOENT)
         return retex_fail(err, RETEX_ENOTFOUND, "there is no project yet");
     if (file < 0 || fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
@@ -78,17 +77,6 @@ int project_read(const Model *model, char **text, size_t *bytes, char etag[PROJE
     }
     make_etag(*text, *bytes, etag);
     return RETEX_OK;
-}
-
-static int check_json(const char *text, size_t bytes, RetexError *err)
-{
-    json_error_t fault;
-    json_t *root = json_loadb(text, bytes, JSON_REJECT_DUPLICATES, &fault);
-    const int is_right = json_is_object(root);
-    json_decref(root);
-    return is_right ? RETEX_OK
-                    : retex_fail(err, RETEX_EPARSE, "a project is an object of JSON%s%s", root ? "" : ": ",
-                                 root ? "" : fault.text);
 }
 
 /* The content of now is the one that the window has seen. */
@@ -145,10 +133,14 @@ static void note(Project *project, const Model *model, const char *etag)
 int project_write(Project *project, const Model *model, const char *text, size_t bytes, const char *seen,
                   char etag[PROJECT_ETAG], RetexError *err)
 {
-    int code = model ? check_json(text, bytes, err) : retex_fail(err, RETEX_EINVAL, "no model is open");
-    if (code)
-        return code;
+    if (!model)
+        return retex_fail(err, RETEX_EINVAL, "no model is open");
+    json_t *checked = project_parse(text, bytes, model, err);
+    json_decref(checked);
+    if (!checked)
+        return RETEX_EPARSE;
     pthread_mutex_lock(&project->writing);
+    int code;
     const int lock = lock_folder(model, &code, err);
     if (!code)
         code = check_seen(model, seen, err);

@@ -1,5 +1,6 @@
 /* What is answered where: a row for each address, and what it does. Answers are JSON but where the rows say so. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,6 +10,7 @@
 
 #include "folder.h"
 #include "media.h"
+#include "common/beneath.h"
 #include "common/output_folder.h"
 #include "page.h"
 
@@ -38,6 +40,16 @@ static Reply done(void)
     return reply_json(MHD_HTTP_OK, json_object());
 }
 
+/* 0: the user has made this model's folder, or agreed to go on with it; else the reply. */
+static int refuse_foreign(Request *request, const Model *model, Reply *reply)
+{
+    RetexError err = {0};
+    if (!places_check_trust(&request->studio->places, model, &err))
+        return 0;
+    *reply = reply_of_error(&err);
+    return 1;
+}
+
 /* The path as requests name it: relative to the model's folder if it lies there. */
 static json_t *shown_path(const Model *model, const char *path)
 {
@@ -48,13 +60,34 @@ static json_t *shown_path(const Model *model, const char *path)
 
 /* ---- the page ---- */
 
+/* Scripts are those two of the program, by their whole addresses; styles and pictures of the player are also made by
+ * it. */
+static void allow_page(const Request *request, Reply *reply)
+{
+    char policy[1024], script[2][256];
+    static const char *const names[] = {"studio.js", "retex-room.js"};
+    for (int i = 0; i < 2; i++) /* the gate has seen that the host is this server */
+        snprintf(script[i], sizeof script[i], "http://%s/%s/%s", request_header(request, "Host"),
+                 request->studio->gate.token, names[i]);
+    snprintf(policy, sizeof policy,
+             "default-src 'none'; script-src %s %s; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+             "connect-src 'self' blob: data:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+             "frame-ancestors 'none'",
+             script[0], script[1]);
+    reply_header(reply, "Content-Security-Policy", policy);
+}
+
 static Reply answer_page(Request *request)
 {
     const char *name = *request->path ? request->path : "index.html";
+    Reply reply = {0};
     for (const PageFile *file = studio_page; file->name; file++)
         if (strcmp(file->name, name) == 0)
-            return reply_constant(media_type(name, 1), file->data, file->bytes);
-    return reply_error(MHD_HTTP_NOT_FOUND, "there is nothing at this address");
+            reply = reply_constant(media_type(name, 1), file->data, file->bytes);
+    if (!reply.status)
+        return reply_error(MHD_HTTP_NOT_FOUND, "there is nothing at this address");
+    allow_page(request, &reply);
+    return reply;
 }
 
 /* ---- the model and the project ---- */
@@ -79,6 +112,7 @@ static Reply answer_state(Request *request)
     size_t bytes = 0;
     json_t *textures = json_array(), *state = json_pack("{s:s}", "version", RETEX_VERSION);
     (void)project_read(model, &text, &bytes, etag, NULL);
+    json_t *project = text ? project_parse(text, bytes, model, NULL) : NULL;
     json_object_set_new(state, "model", model ? model_json(studio, model) : json_null());
     json_object_set_new(state, "folder", model ? json_of_text(strrchr(model->written, '/') + 1) : json_null());
     json_object_set_new(state, "dropped", json_of_text(studio->places.dropped));
@@ -87,6 +121,7 @@ static Reply answer_state(Request *request)
         state, "limits",
         json_pack("{s:b, s:I}", "safe", !studio->limits.is_unsafe, "memory", (json_int_t)studio->limits.memory));
     changes_lock(&studio->changes);
+    json_object_set_new(state, "foreign", model && model->foreign ? json_string(model->foreign) : json_null());
     for (int i = 0; i < studio->places.ntextures; i++)
         json_array_append_new(textures, json_of_text(studio->places.textures[i]));
     json_object_set_new(state, "jobs", jobs_list(&studio->jobs, 0));
@@ -94,8 +129,8 @@ static Reply answer_state(Request *request)
     json_object_set_new(state, "number", json_integer((json_int_t)studio->changes.number));
     changes_unlock(&studio->changes);
     json_object_set_new(state, "textures", textures);
-    json_t *project = text ? json_loadb(text, bytes, 0, NULL) : NULL;
-    json_object_set_new(state, "project", project ? project : json_null());
+    /* of one that is damaged, the call for the project alone says what is wrong */
+    json_object_set_new(state, "project", project ? project : text ? json_object() : json_null());
     json_object_set_new(state, "etag", text ? json_string(etag) : json_null());
     free(text);
     return reply_json(MHD_HTTP_OK, state);
@@ -105,9 +140,16 @@ static Reply answer_project(Request *request)
 {
     char *text, etag[PROJECT_ETAG];
     size_t bytes;
+    const Model *model = places_model(&request->studio->places);
     RetexError err = {0};
-    if (project_read(places_model(&request->studio->places), &text, &bytes, etag, &err))
+    if (project_read(model, &text, &bytes, etag, &err))
         return reply_of_error(&err);
+    json_t *project = project_parse(text, bytes, model, &err);
+    json_decref(project);
+    if (!project) {
+        free(text);
+        return reply_of_error(&err);
+    }
     Reply reply = reply_bytes(MHD_HTTP_OK, "application/json", text, bytes);
     reply_header(&reply, "ETag", etag);
     return reply;
@@ -122,8 +164,12 @@ static Reply answer_project_put(Request *request)
     if (!seen == !none || (none && strcmp(none, "*") != 0))
         return reply_error(MHD_HTTP_PRECONDITION_REQUIRED,
                            "expected If-Match with what was seen, or If-None-Match: * for the first");
-    const int code = project_write(&studio->project, places_model(&studio->places), request->body ? request->body : "",
-                                   request->bytes, seen, etag, &err);
+    const Model *model = places_model(&studio->places);
+    Reply refusal;
+    if (refuse_foreign(request, model, &refusal))
+        return refusal;
+    const int code =
+        project_write(&studio->project, model, request->body ? request->body : "", request->bytes, seen, etag, &err);
     if (code == RETEX_EACCESS)
         return reply_error(MHD_HTTP_PRECONDITION_FAILED, "%s", err.message);
     if (code == RETEX_EIO)
@@ -172,12 +218,27 @@ static Reply answer_open(Request *request)
     return answer_state(request);
 }
 
+static Reply answer_trust(Request *request)
+{
+    Reply reply;
+    RetexError err = {0};
+    json_t *asked = read_object(request, &reply);
+    if (!asked)
+        return reply;
+    const int code = places_trust(&request->studio->places, text_of(asked, "model"), &err);
+    json_decref(asked);
+    return code ? reply_of_error(&err) : answer_state(request);
+}
+
 static Reply answer_textures(Request *request)
 {
+    const Model *model = places_model(&request->studio->places);
     Reply reply;
     ReachAccess access;
     RetexError err = {0};
     char path[PATH_MAX];
+    if (model && refuse_foreign(request, model, &reply))
+        return reply;
     json_t *asked = read_object(request, &reply);
     const int is_refused = !asked || reach(request, text_of(asked, "path"), REACH_LISTED, &access, path, &reply);
     json_decref(asked);
@@ -199,23 +260,35 @@ Reply reply_of_received(const RetexError *err)
     return reply_of_error(err);
 }
 
+/* The folder that files are sent to, open, and its path. Below 0: the error. */
+static int open_files(Places *places, const Model *model, char folder[PATH_MAX], RetexError *err)
+{
+    const char *last;
+    int top = -1;
+    if (model && places_check_trust(places, model, err))
+        return -1;
+    snprintf(folder, PATH_MAX, "%s%s", model ? model->written : places->dropped, model ? "/" PLACES_FILES : "");
+    if (model)
+        top = beneath_open_parent(model->top, PLACES_FILES "/.", 1, &last);
+    else if (mkdir(folder, 0777) == 0 || errno == EEXIST) /* the user's own, who may have a link there */
+        top = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (top < 0)
+        retex_fail(err, errno == ELOOP ? RETEX_EACCESS : RETEX_EIO, "cannot write into %s: %s", folder,
+                   strerror(errno));
+    return top;
+}
+
 static int receive_upload(Request *request, Reply *reply)
 {
     const char *name = request_query(request, "name"), *as = request_query(request, "as");
     Places *places = &request->studio->places;
     const Model *model = as && strcmp(as, "model") == 0 ? NULL : places_model(places);
-    char folder[PATH_MAX], inside[PATH_MAX + 2];
+    char folder[PATH_MAX];
     RetexError err = {0};
-    const int length =
-        snprintf(folder, sizeof folder, "%s%s", model ? model->written : places->dropped, model ? "/files" : "");
-    snprintf(inside, sizeof inside, "%s/", folder);
-    int code = length < PATH_MAX ? output_make_folders(inside, &err)
-                                 : retex_fail(&err, RETEX_EINVAL, "the name of the file is too long");
-    if (!code)
-        code = received_begin(&request->received, folder, name ? name : "", request_length(request), &err);
-    if (code)
+    const int top = open_files(places, model, folder, &err);
+    if (top < 0 || received_begin(&request->received, top, folder, name ? name : "", request_length(request), &err))
         *reply = reply_of_received(&err);
-    return code;
+    return err.code;
 }
 
 static Reply answer_upload(Request *request)
@@ -308,7 +381,6 @@ static Reply answer_thumb(Request *request)
 
 static Reply answer_files(Request *request)
 {
-    const Model *model = places_model(&request->studio->places);
     char path[PATH_MAX];
     ReachAccess access;
     Reply reply;
@@ -319,7 +391,7 @@ static Reply answer_files(Request *request)
     if (retex_access_open(&access.access, path, &file, &err))
         return reply_error(err.code == RETEX_EACCESS ? MHD_HTTP_FORBIDDEN : MHD_HTTP_NOT_FOUND,
                            "%s: there is no such file", request->rest);
-    return media_file(request, file, media_type(path, model && output_is_below(path, model->written)));
+    return media_file(request, file, media_type(path, 0));
 }
 
 /* ---- jobs ---- */
@@ -336,12 +408,13 @@ static Reply answer_jobs(Request *request)
 static Reply answer_job(Request *request)
 {
     Studio *studio = request->studio;
+    const Model *model = places_model(&studio->places);
     Reply reply;
     RetexError err = {0};
-    json_t *asked = read_object(request, &reply);
+    json_t *asked = refuse_foreign(request, model, &reply) ? NULL : read_object(request, &reply);
     if (!asked)
         return reply;
-    const int number = jobs_add(&studio->jobs, asked, &studio->limits, places_model(&studio->places), &err);
+    const int number = jobs_add(&studio->jobs, asked, &studio->limits, model, &err);
     json_decref(asked);
     return number < 0 ? reply_of_error(&err) : reply_json(MHD_HTTP_OK, json_pack("{s:i}", "job", number));
 }
@@ -376,7 +449,7 @@ static Reply answer_preview_start(Request *request)
     Reply reply;
     RetexError err = {0};
     Line line;
-    json_t *asked = read_object(request, &reply);
+    json_t *asked = refuse_foreign(request, model, &reply) ? NULL : read_object(request, &reply);
     if (!asked)
         return reply;
     const int code =
@@ -494,6 +567,7 @@ static const Route routes[] = {
     {"GET", "api/project", answer_project, NULL},
     {"PUT", "api/project", answer_project_put, NULL},
     {"POST", "api/open", answer_open, NULL},
+    {"POST", "api/trust", answer_trust, NULL},
     {"POST", "api/textures", answer_textures, NULL},
     {"POST", "api/upload", answer_upload, receive_upload},
     {"GET", "api/folder", answer_folder, NULL},

@@ -25,4 +25,13 @@ typedef struct Studio {
     int is_quitting; /* guarded by changes: a window has asked for the end */
 } Studio;
 
+/* ---- http.c ---- */
+
+typedef struct Http Http;
+
+/* Listen on 127.0.0.1; the port becomes that of studio->gate. */
+int http_open(Http **http, Studio *studio, int port, RetexError *err);
+/* Answers that are on their way have two seconds to arrive. All that wait must have been woken: changes_end. */
+void http_close(Http **http);
+
 #endif

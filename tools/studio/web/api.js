@@ -33,6 +33,7 @@ export const getFolder = (path) => json(path ? `api/folder?path=${encodeURICompo
 export const thumbAddress = (path, size = 160) => `api/thumb?path=${encodeURIComponent(path)}&size=${size}`;
 export const getJobs = () => json("api/jobs").then((answer) => answer.jobs || answer);
 export const addTextures = (path) => post("api/textures", { path });
+export const trust = (model) => post("api/trust", { model });
 export const startJob = (tool, args, label) => post("api/jobs", { tool, args, label });
 export const stopJob = (job) => post(`api/jobs/${job}/stop`, {});
 export const startPreview = (scene, args) => post("api/preview/start", { scene, args });

@@ -1,7 +1,6 @@
 /* What the page knows: the project with its history, jobs, and which step is shown. It tells of changes by events:
  * "change" (anything to be drawn anew), "message". */
 import * as api from "./api.js";
-import { placeFiles } from "./commands.js";
 import { amended, changed, emptyProject, kindOf, newHistory, readProject, redone, undone, withRender } from "./project.js";
 import { errorReport, plainly } from "./words.js";
 
@@ -61,20 +60,32 @@ export class App extends EventTarget {
       return this.tell();
     }
     this.etag = "";
-    placeFiles(this.model.path, state.folder);
+    this.foreign = state.foreign || ""; // why nothing is run yet
+    this.history = newHistory(emptyProject(this.model.path));
     let project = emptyProject(this.model.path);
     if (state.project) {
-      const read = await api.getProject();
+      const read = await api.getProject().catch((error) => {
+        this.model = null; // of what is damaged, nothing is shown
+        throw error;
+      });
       project = readProject(read.project, this.model.path);
       this.etag = read.etag;
     }
     this.history = newHistory(project);
     this.known = {};
-    await this.addFolders();
-    await this.readJobs();
+    if (!this.foreign) {
+      await this.addFolders();
+      await this.readJobs();
+    }
     this.tell("opened");
     this.tell();
     return undefined;
+  }
+
+  /* The user agrees to go on with what somebody else may have made. */
+  async trust() {
+    await api.trust(`${this.model.folder}/${this.model.name}`);
+    await this.load();
   }
 
   /* Those of pictures, which the server shows from now on. */
@@ -128,7 +139,7 @@ export class App extends EventTarget {
   /* One after the other: each needs the ETag of the one before. */
   async saveNow() {
     clearTimeout(this.timer);
-    if (!this.model || this.conflict) return;
+    if (!this.model || this.conflict || this.foreign) return;
     if (this.saving) {
       this.again = true;
       return;

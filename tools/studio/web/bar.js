@@ -1,5 +1,5 @@
 /* What a person must know, and can do something about, above the picture: the server is gone, the model has changed. */
-import { folderOf, shellLine } from "./commands.js";
+import { commandsOf, folderOf, shellLine } from "./commands.js";
 import { button, download, h, icon, ICONS } from "./dom.js";
 import { importAgain } from "./step_open.js";
 
@@ -33,6 +33,17 @@ function modelChanged(app) {
 export function bar(app) {
   const body = app.lost ? lost(app) : app.modelChanged && app.model && !app.importing ? modelChanged(app) : null;
   return body && [icon(ICONS.warn), h("div", {}, body)];
+}
+
+/* What would be run of what somebody else may have made. */
+export function foreignText(app) {
+  const { folders } = app.project.textures, lines = commandsOf(app.project).map(({ line }) => line);
+  return [
+    h("p", {}, h("b", {}, app.model.name), ` may come from somebody else: ${app.foreign}. With it, these commands may run, and write into `, h("code", {}, folderOf(app.model.name)), ":"),
+    h("pre", { tabIndex: 0 }, lines.join("\n")),
+    folders.length ? [h("p", {}, "These folders of pictures would be shown:"), h("pre", { tabIndex: 0 }, folders.join("\n"))] : null,
+    h("p", {}, "Nothing has been run yet. If you do not know where it comes from, end here."),
+  ];
 }
 
 /* What ending the program does. */

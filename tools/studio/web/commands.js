@@ -3,10 +3,8 @@ import { cameraText } from "./camera.js";
 import { lookArgs, optionText, readLook } from "./look.js";
 import { kindOf } from "./project.js";
 
-/* Where what is made of a model lies, as the server says: a project of once has a folder of another name. */
-const folders = new Map();
-export const placeFiles = (model, folder) => folders.set(model, folder);
-export const folderOf = (model) => folders.get(model) || `${model.replace(/^.*\//, "")}.studio`;
+/* Where what is made of a model lies. */
+export const folderOf = (model) => `${model.replace(/^.*\//, "")}.studio`;
 export const sceneOf = ({ model }) => (kindOf(model) === "scene" ? model : `${folderOf(model)}/scene/scene.pov`);
 const rendersOf = (model) => `${folderOf(model)}/renders`;
 
@@ -25,11 +23,11 @@ export function importArgs({ model, import: how }) {
   const said = ["camera", "variant", "unit", "up", "lights", "sky"].filter((key) => how[key]);
   return [
     ...said.flatMap((key) => [`--${key}`, String(how[key])]),
-    ...(how.partial ? ["--partial"] : []), "--force", "-o", `${folderOf(model)}/scene`, model,
+    ...(how.partial ? ["--partial"] : []), "--force", "-o", `${folderOf(model)}/scene`, "--", model,
   ];
 }
 
-export const variantListArgs = ({ model }) => ["--list-variants", model];
+export const variantListArgs = ({ model }) => ["--list-variants", "--", model];
 
 const selected = ({ name, select, uv }) => `${name}=${select}${uv ? `:uv=${uv}` : ""}`;
 const targetArgs = ({ targets }) => targets.flatMap((t) => ["-t", selected(t)]);
@@ -41,6 +39,9 @@ const finishArgs = ({ finishes }) =>
 /* What the preview is started with: targets have their projections. Its camera moves by requests. */
 export const liveArgs = (project) => targetArgs(project);
 
+/* All that a render depends on: a list of renders keeps it, so that one that was stopped goes on as it began. */
+export const settingsOf = ({ view, targets, lamps, finishes, render }) => ({ view, targets, lamps, finishes, render });
+
 /* What is in the picture, and how well it is rendered. */
 const contentArgs = (project) => [...targetArgs(project), ...lampArgs(project), ...finishArgs(project), ...cameraArgs(project)];
 const qualityArgs = ({ samples, noise, denoise }) =>
@@ -49,14 +50,14 @@ const qualityArgs = ({ samples, noise, denoise }) =>
 export function renderArgs(project, set) {
   const { width, height } = project.render;
   return [...contentArgs(project), "--size", `${width}x${height}`, ...qualityArgs(project.render), "--resume",
-    "--progress", "json", "-o", set, sceneOf(project)];
+    "--progress", "json", "-o", set, "--", sceneOf(project)];
 }
 
 /* A part of the picture at its full size, to look at: X, Y, width and height in pixels. */
 export function cropArgs(project, [x, y, w, h], file) {
   const { width, height } = project.render;
   return [...contentArgs({ ...project, lamps: [], finishes: {} }), "--plain", "--size", `${width}x${height}`, "--crop",
-    [x, y, w, h].join(), ...qualityArgs(project.render), "--progress", "json", "-o", file, sceneOf(project)];
+    [x, y, w, h].join(), ...qualityArgs(project.render), "--progress", "json", "-o", file, "--", sceneOf(project)];
 }
 
 /* Small renders that tell what the large one will take. */
@@ -64,19 +65,19 @@ export const TRIAL_SAMPLES = 4;
 export function trialArgs(project, width, file) {
   const height = Math.max(16, Math.round((width * project.render.height) / project.render.width));
   return [...contentArgs(project), "--size", `${width}x${height}`, ...qualityArgs({ ...project.render, samples: TRIAL_SAMPLES, noise: 0 }),
-    "--stats", "-", "-q", "-o", file, sceneOf(project)];
+    "--stats", "-", "-q", "-o", file, "--", sceneOf(project)];
 }
 
-export const lampListArgs = (project) => ["--list-lamps", ...cameraArgs(project), sceneOf(project)];
-export const finishListArgs = (project) => ["--list-finishes", sceneOf(project)];
-export const webArgs = (set, folder) => ["-q", set, "--web", folder];
+export const lampListArgs = (project) => ["--list-lamps", ...cameraArgs(project), "--", sceneOf(project)];
+export const finishListArgs = (project) => ["--list-finishes", "--", sceneOf(project)];
+export const webArgs = (set, folder) => ["-q", "--web", folder, "--", set];
 /* A page for others: with a look to begin with, and smaller rooms for small screens. A pack has none. */
 export const maySmaller = (set) => !set.endsWith(".retex");
 export const pageArgs = (set, folder, preset, smaller) =>
-  ["-q", set, ...(preset ? ["--preset", preset] : []), ...(smaller ? ["--web-smaller", "2,4"] : []), "--web", folder];
-export const packArgs = (set, file) => ["-q", set, "-o", file];
+  ["-q", ...(preset ? ["--preset", preset] : []), ...(smaller ? ["--web-smaller", "2,4"] : []), "--web", folder, "--", set];
+export const packArgs = (set, file) => ["-q", "-o", file, "--", set];
 export const pictureArgs = (set, look, file, size = "") =>
-  ["-q", set, ...lookArgs(look), ...(size ? ["--size", size] : []), "-o", file];
+  ["-q", ...lookArgs(look), ...(size ? ["--size", size] : []), "-o", file, "--", set];
 
 const cell = (text) => (/[",\n;\t]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
 
@@ -99,7 +100,7 @@ export function lookWithout(look, target) {
   }).join(";");
 }
 export const catalogueArgs = (set, table, root, rest) =>
-  ["-q", set, ...lookArgs(rest), "--batch", table, "--batch-root", root, "--mkdir", "--keep-going"];
+  ["-q", ...lookArgs(rest), "--batch", table, "--batch-root", root, "--mkdir", "--keep-going", "--", set];
 
 // ---- for people ----
 
@@ -113,12 +114,12 @@ const withoutProgress = (args) => args.filter((a, i) => a !== "--progress" && ar
 export function commandsOf(project) {
   const list = [], add = (title, tool, args) => list.push({ title, line: shellLine(tool, args) });
   if (kindOf(project.model) === "model") add("Make a scene of the model", "retex-import", importArgs(project));
-  const done = project.renders.filter((r) => r.done).at(-1), set = done?.set || nextSet(project);
+  const done = project.renders.filter((r) => r.done).at(-1), set = kindOf(project.model) === "set" ? project.model : done?.set || nextSet(project);
   if (kindOf(project.model) !== "set") {
-    add("Render", "retex-render", withoutProgress(done?.args || renderArgs(project, set)));
+    add("Render", "retex-render", withoutProgress(renderArgs(done ? { ...done.settings, model: project.model } : project, set)));
   }
   const preset = project.look ? `${folderOf(project.model)}/look.json` : "", picture = pictureArgs(set, project.look, `${folderOf(project.model)}/picture.png`);
-  add("Make the picture", "retex-combine", preset ? [...picture, "--save-preset", preset] : picture);
+  add("Make the picture", "retex-combine", preset ? ["--save-preset", preset, ...picture] : picture);
   add("Make the page", "retex-pack", pageArgs(set, webOf(project.model, set), preset, maySmaller(set)));
   return list;
 }

@@ -1,4 +1,4 @@
-/* The player: <retex-room> of the page that retex-pack made of a set. The project has its look. */
+/* The player: <retex-room>, the program's own, of the room that retex-pack made of a set. The project has its look. */
 import { pageOf, webArgs } from "./commands.js";
 import { addressOf, lookOfLink } from "./look.js";
 
@@ -29,7 +29,7 @@ export class Player {
     try {
       const folder = pageOf(this.app.project.model, set);
       await this.app.runWell("retex-pack", webArgs(set, folder), "Make the page");
-      await import(new URL(`${addressOf(folder)}/retex-room.js`, document.baseURI).href);
+      await import(new URL("retex-room.js", document.baseURI).href);
       this.clear();
       this.made = set;
       this.begin(`${addressOf(folder)}/`);

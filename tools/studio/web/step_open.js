@@ -43,6 +43,7 @@ async function learnVariants(app) {
 /* What comes first: an import, the view, or playing. */
 export function begin(app) {
   app.listing = null;
+  if (app.foreign) return;
   learnVariants(app);
   if (app.kind === "set") app.go("play");
   else if (app.hasScene) app.go(app.set ? "play" : "view");

@@ -1,6 +1,6 @@
 /* Render: the long computation, after which all else is immediate. */
 import * as api from "./api.js";
-import { cropArgs, folderOf, nextSet, renderArgs, TRIAL_SAMPLES, trialArgs } from "./commands.js";
+import { cropArgs, folderOf, nextSet, renderArgs, settingsOf, TRIAL_SAMPLES, trialArgs } from "./commands.js";
 import { button, check, choice, field, h, icon, iconButton, ICONS, numberField } from "./dom.js";
 import { partPixels } from "./crop.js";
 import { bytesText, durationText, estimate, trialOf } from "./estimate.js";
@@ -20,16 +20,16 @@ const put = (app, change) => app.change("Change the render", (p) => ({ ...p, ren
 const unfinished = (app) => app.project.renders.find((r) => !r.done);
 
 const startRender = (app) => app.attempt(async () => {
-  const set = nextSet(app.project), args = renderArgs(app.project, set);
-  app.amend((p) => ({ ...p, renders: [...p.renders, { set, args, done: false, when: new Date().toISOString() }] }));
-  await goOn(app, { set, args });
+  const set = nextSet(app.project), settings = settingsOf(app.project);
+  app.amend((p) => ({ ...p, renders: [...p.renders, { set, settings, done: false, when: new Date().toISOString() }] }));
+  await goOn(app, { set, settings });
 });
 
 /* From where it was, or from the start. */
-async function goOn(app, { set, args }) {
+async function goOn(app, { set, settings }) {
   app.amend((p) => withRender(p, set, { error: "" }));
   await app.saveNow();
-  const job = await app.run("retex-render", args, "Render");
+  const job = await app.run("retex-render", renderArgs({ ...settings, model: app.project.model }, set), "Render");
   if (job.state === "failed") throw new Error(errorReport(job.lines, "The render").text);
 }
 
@@ -121,7 +121,7 @@ export function progressOf(job, text) {
 
 function row(app, render) {
   const job = app.jobOf(render.set), expected = job && told(app), name = `Render ${/\/(\d+)\.exr$/.exec(render.set)?.[1] || ""}`;
-  const size = render.args?.[render.args.indexOf("--size") + 1]?.replace("x", " × ") || "";
+  const { width, height } = render.settings.render, size = `${width} × ${height}`;
   const away = () => app.change(`Remove ${name}`, (p) => ({ ...p, renders: p.renders.filter((r) => r.set !== render.set) }));
   return h("li", { class: "card" }, h("div", {}, h("b", {}, name), h("small", {}, ` ${size}`),
     job ? [progressOf(job, "Rendering"), expected ? h("small", {}, `${bytesText(expected.memory)} of memory, ${bytesText(expected.bytes)} on the disk`) : null, button(job.stopping ? "Pausing…" : "Pause", () => app.stop(job.job), { id: `stop-${job.job}`, disabled: !!job.stopping }, "pause")]
@@ -143,7 +143,7 @@ export function next(app) {
   const open = unfinished(app), job = open && app.jobOf(open.set);
   if (job) return { label: "Rendering…", disabled: true, why: "You can go on looking round; or pause it, and go on another day." };
   const last = app.project.renders.at(-1);
-  const isCurrent = last?.done && JSON.stringify(last.args) === JSON.stringify(renderArgs(app.project, last.set));
+  const isCurrent = last?.done && JSON.stringify(last.settings) === JSON.stringify(settingsOf(app.project));
   if (isCurrent) return { label: "Play with textures", step: "play" };
   return { label: app.project.renders.length ? "Render anew" : "Render", run: () => startRender(app) };
 }

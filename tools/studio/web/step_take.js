@@ -1,6 +1,6 @@
 /* Take away: pictures, files and pages for others. */
 import * as api from "./api.js";
-import { catalogueArgs, catalogueTable, commandsOf, folderOf, lookWithout, maySmaller, packArgs, pageArgs, pictureArgs, webOf } from "./commands.js";
+import { catalogueArgs, catalogueTable, commandsOf, folderOf, lookWithout, maySmaller, packArgs, pageArgs, pictureArgs, shellLine, webOf } from "./commands.js";
 import { button, check, choice, download, field, h, icon, iconButton, ICONS } from "./dom.js";
 import { addressOf, presetOf, readLook } from "./look.js";
 import { freeName } from "./project.js";
@@ -69,12 +69,14 @@ function page(app) {
     state.page ? h("p", { class: "path" }, state.page) : null,
     mayBeSmaller ? check("page-smaller", "Smaller rooms beside it, for phones", state.smaller, (on) => (state.smaller = on)) : null,
   ];
-  const open = (made) => h("a", { href: `${addressOf(made)}/index.html`, id: "open-page", target: "_blank", class: "button", rel: "noopener" }, h("span", {}, "Look at the page"));
+  /* its scripts are not run at this address, where they could ask the studio for all that the user may do */
+  const place = (made) => h("div", { id: "page-made" }, h("p", { class: "hint" }, "Put it on any web server. To look at it first, in a shell:"),
+    h("pre", { tabIndex: 0 }, shellLine("python3", ["-m", "http.server", "-b", "127.0.0.1", "-d", `${app.model.folder}/${made}`])));
   return card(app, "page", "Web page", "A folder for any web server. Visitors see the room as it looks now, and change the textures themselves.", body, "Make the page", async () => {
     const preset = look ? await api.upload("look.json", new Blob([presetOf(look, app.model.folder)])) : "";
     await app.runWell("retex-pack", pageArgs(app.set, folder, preset, mayBeSmaller && state.smaller), "Make the page");
     return folder;
-  }, open);
+  }, place);
 }
 
 /* All pictures of the folder that is open in Play, one after the other on the target. */

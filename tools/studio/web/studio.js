@@ -1,7 +1,7 @@
 /*! The page of retex studio. Licence: Apache-2.0. */
 /* Steps on the left, the picture in the middle, one next thing to do. */
 import { App } from "./app.js";
-import { bar, endedText, quitText } from "./bar.js";
+import { bar, endedText, foreignText, quitText } from "./bar.js";
 import { Crop } from "./crop.js";
 import { button, h, icon, iconButton, ICONS, refill } from "./dom.js";
 import { droppedFiles } from "./files.js";
@@ -86,6 +86,8 @@ function drawBar() {
   if (key !== place.dataset.key) refill(place, body || []); // not to be read again by screen readers
   place.dataset.key = key;
   showDialog($("#conflict"), !!app.conflict && !app.lost);
+  if (app.foreign && !$("#foreign").open) refill($("#foreign-text"), foreignText(app));
+  showDialog($("#foreign"), !!app.foreign && !app.ended && !app.lost);
   if (app.ended && !$("#ended").open) refill($("#ended-text"), endedText(app));
   showDialog($("#ended"), !!app.ended);
 }
@@ -122,6 +124,7 @@ function showMessage({ detail: { text, kind, action } }) {
 
 let started = "";
 function followPreview() {
+  if (app.foreign) return;
   if (!app.hasScene || isPlaying()) {
     if (started && isPlaying()) preview.send("stop").catch(() => 0);
     return;
@@ -197,7 +200,15 @@ $("#pause").append(icon(ICONS.pause));
 $("#pause").addEventListener("click", () => app.attempt(() => preview.pause(!app.paused)).then(draw));
 $("#take-over").addEventListener("click", () => app.attempt(() => app.takeOver()));
 $("#reload").addEventListener("click", () => app.attempt(() => app.load()));
-for (const id of ["#conflict", "#ended"]) $(id).addEventListener("cancel", (event) => event.preventDefault());
+for (const id of ["#conflict", "#ended", "#foreign"]) {
+  $(id).addEventListener("cancel", (event) => event.preventDefault());
+  $(id).addEventListener("close", draw); // a second Escape closes it all the same: then it comes again
+}
+$("#foreign-open").addEventListener("click", () => app.attempt(async () => {
+  await app.trust();
+  open.begin(app);
+}));
+$("#foreign-end").addEventListener("click", () => app.attempt(() => app.quit()));
 $("#quit-button").append(icon(ICONS.quit));
 $("#quit-button").addEventListener("click", () => {
   refill($("#quit-text"), quitText(app));
@@ -244,8 +255,7 @@ document.addEventListener("visibilitychange", () => {
   else preview.settle().catch(() => 0);
 });
 
-app.attempt(async () => {
-  await app.load();
+app.attempt(() => app.load()).then(() => {
   app.listen();
   if (app.model) open.begin(app);
   else app.go("open");
