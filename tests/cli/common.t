@@ -32,6 +32,22 @@ $ for t in diff pack sample combine denoise info render; do retex-$t --nonsense;
 ! retex-info: error: unknown option --nonsense; try --help
 ! retex-render: error: unknown option --nonsense; try --help
 
+# Behind `--` stand names alone, whatever they look like.
+$ for t in diff pack sample combine denoise info import render serve studio; do
++     retex-$t -- --version >out 2>err; echo "$t $? $(wc -l <out) $(grep -c 'error: ' err)"
++ done
+> diff 2 0 1
+> pack 2 0 1
+> sample 2 0 1
+> combine 2 0 1
+> denoise 2 0 1
+> info 2 0 1
+> import 2 0 1
+> render 2 0 1
+> serve 2 0 1
+> studio 2 0 1
+$ make_set s.exr 16 12 && mv s.exr ./-q && retex-pack -q -o ./-o -- -q && retex-info -q --check -- -o && retex-diff -q -- -q -q
+
 # --help goes to standard output and names every option.
 $ for t in diff pack sample combine denoise info render; do
 +     retex-$t --help >help || echo $t

@@ -207,3 +207,20 @@ $ retex-combine set.exr --batch t.csv --colorspace sRGB
 = 2
 $ test -e x.png
 = 1
+
+# A preset of a stranger is data: it has no options of the tool, and names no output.
+$ for edit in 'picture:output=y.png' 'picture:save-preset=y.json' '--save-preset=y.json' 'Floor=--help' 'Floor=$(id).png'; do
++     printf '{"retex-preset": 1, "edit": "%s"}' "$edit" >gift.json
++     retex-combine -q set.exr --preset gift.json -o x.png || echo $?
++ done
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-combine: error: gift.json: `picture:output`: expected exposure, white-balance, auto-exposure or view
+! retex-combine: error: gift.json: `picture:save-preset`: expected exposure, white-balance, auto-exposure or view
+! retex-combine: error: no target is called '--save-preset'; the set has Floor, Wall
+! retex-combine: error: cannot read --help: No such file or directory
+! retex-combine: error: cannot read $(id).png: No such file or directory
+$ ls | grep '^y' || true
