@@ -22,6 +22,7 @@
 
 #include <retex/retex.h>
 
+#include "common/beneath.h"
 #include "common/set_kind.h"
 #include "common/cli.h"
 #include "common/confine.h"
@@ -33,7 +34,7 @@ enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES =
 typedef struct Request {
     ImportOptions import;
     const char *also[MOST_FOLDERS];
-    const char *layer, *other_half; /* of pictures; all else is for models */
+    const char *layer, *other_half;        /* of pictures; all else is for models */
     const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
     int force;
 } Request;
@@ -105,8 +106,10 @@ static const CliOption options[] = {
     {0},
 };
 
-/* The folder that is being filled. Read by the watchdog's thread. */
+/* The folder that is being filled, and the same, open: whoever may write beside it may put a link in its place. Its name
+ * is read by the watchdog's thread. */
 static char unfinished[PATH_MAX];
+static int unfinished_folder = -1;
 static _Atomic pid_t child;
 
 static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
@@ -170,7 +173,7 @@ _Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
         confine_memory(retex_budget_memory(cli->budget));
     if (import->folder)
         setenv("TMPDIR", import->folder, 1);
-    confine_to_folder(import->folder);
+    confine_to_folder(unfinished_folder);
     unsetenv("OCIO"); /* images are written as sRGB */
     if (!lines)
         _exit(CLI_FAIL);
@@ -257,45 +260,47 @@ static int run_import(const Cli *cli, ImportOptions *import, RetexError *err)
 
 /* ---- the folder ---- */
 
-static int move_file(const char *from, const char *to, const char *name, RetexError *err)
+static int fail_to_write(const char *folder, const char *name, RetexError *err)
 {
-    char a[PATH_MAX], b[PATH_MAX];
-    if (snprintf(a, sizeof a, "%s/%s", from, name) >= PATH_MAX || snprintf(b, sizeof b, "%s/%s", to, name) >= PATH_MAX)
-        return retex_fail(err, RETEX_EIO, "%s: the name is too long", to);
-    if (rename(a, b) != 0)
-        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", b, strerror(errno));
-    return RETEX_OK;
+    return retex_fail(err, RETEX_EIO, "cannot write %s/%s: %s", folder, name,
+                      errno == ELOOP ? "there is a link on the way" : strerror(errno));
 }
 
-/* Move the files of a folder into another one. */
-static int move_files(const char *from, const char *to, RetexError *err)
+/* Into a folder that may hold a stranger's links: none is followed, and one in place of the file is replaced. */
+static int move_file(int from, const char *name, int to, const char *path, const char *shown, RetexError *err)
 {
-    DIR *folder = opendir(from);
-    int code = folder ? RETEX_OK : retex_fail(err, RETEX_EIO, "cannot read %s: %s", from, strerror(errno));
-    for (const struct dirent *entry; !code && (entry = readdir(folder));) {
-        char inner[PATH_MAX], target[PATH_MAX];
-        struct stat info;
-        if (entry->d_name[0] == '.')
-            continue;
-        if (snprintf(inner, sizeof inner, "%s/%s", from, entry->d_name) >= PATH_MAX ||
-            snprintf(target, sizeof target, "%s/%s", to, entry->d_name) >= PATH_MAX || lstat(inner, &info) != 0)
-            code = retex_fail(err, RETEX_EIO, "%s: the name is too long", to);
-        else if (!S_ISDIR(info.st_mode))
-            code = move_file(from, to, entry->d_name, err);
-        else if (mkdir(target, 0777) != 0 && errno != EEXIST)
-            code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", target, strerror(errno));
-        else
-            code = move_files(inner, target, err);
-    }
-    if (folder)
-        closedir(folder);
+    const char *last;
+    const int parent = beneath_open_parent(to, path, 1, &last);
+    const int is_done = parent >= 0 && renameat(from, name, parent, last) == 0;
+    const int code = is_done ? RETEX_OK : fail_to_write(shown, path, err);
+    if (parent >= 0)
+        close(parent);
     return code;
 }
 
-static int exists(const char *path)
+/* Move the files of a folder, which is closed, to below another one. below: where they are moved to in it, "" or a path
+ * with a slash at its end. shown: its name. */
+static int move_files(int from, const char *below, int to, const char *shown, RetexError *err)
 {
-    struct stat info;
-    return lstat(path, &info) == 0;
+    DIR *list = from < 0 ? NULL : fdopendir(from);
+    int code = list ? RETEX_OK : retex_fail(err, RETEX_EIO, "cannot read the new files: %s", strerror(errno));
+    for (const struct dirent *entry; !code && (entry = readdir(list));) {
+        char path[PATH_MAX];
+        struct stat info;
+        const char *name = entry->d_name;
+        if (name[0] == '.')
+            continue;
+        const int is_folder = fstatat(from, name, &info, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(info.st_mode);
+        if (snprintf(path, sizeof path, "%s%s%s", below, name, is_folder ? "/" : "") >= (int)sizeof path)
+            code = retex_fail(err, RETEX_EIO, "%s: the name is too long", shown);
+        else if (is_folder)
+            code = move_files(beneath_open(from, name, O_RDONLY | O_DIRECTORY, 0), path, to, shown, err);
+        else
+            code = move_file(from, name, to, path, shown, err);
+    }
+    if (list)
+        closedir(list);
+    return code;
 }
 
 /* The last part of the output's name, without slashes at its end. */
@@ -324,13 +329,23 @@ static void take_name(const Cli *cli, char folder[PATH_MAX], char name[NAME_MAX 
             cli_die(cli, "-o: a scene's name cannot have quotes, backslashes or control characters");
 }
 
-static void import_to(const Cli *cli, ImportOptions *import, int force)
+/* The folder that is to be filled, if it is there; else -1. */
+static int open_folder(const Cli *cli, const char *folder, int force)
 {
-    char folder[PATH_MAX], name[NAME_MAX + 1];
-    RetexError err = {0};
-    take_name(cli, folder, name);
-    if (exists(folder) && !force)
+    struct stat info;
+    if (lstat(folder, &info) != 0)
+        return -1;
+    if (!force)
         cli_die(cli, "%s exists; --force writes into it", folder);
+    const int there = beneath_open_top(folder, 0);
+    if (there < 0)
+        cli_die(cli, "cannot write into %s: %s", folder,
+                errno == ELOOP ? "it is a link; name the folder that it leads to" : strerror(errno));
+    return there;
+}
+
+static void begin_folder(const Cli *cli, const char *folder)
+{
     snprintf(unfinished, sizeof unfinished, "%.4000s.XXXXXX", folder);
     watchdog_at_end(remove_unfinished);
     if (!mkdtemp(unfinished)) {
@@ -340,21 +355,34 @@ static void import_to(const Cli *cli, ImportOptions *import, int force)
     }
     const mode_t mask = umask(0);
     umask(mask);
-    chmod(unfinished, 0777 & ~mask);
+    unfinished_folder = beneath_open_top(unfinished, 0);
+    if (unfinished_folder < 0 || fchmod(unfinished_folder, 0777 & ~mask) != 0) {
+        RetexError err = {0};
+        retex_fail(&err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
+        give_up(cli, &err);
+    }
+}
+
+static void import_to(const Cli *cli, ImportOptions *import, int force)
+{
+    char folder[PATH_MAX], name[NAME_MAX + 1];
+    RetexError err = {0};
+    take_name(cli, folder, name);
+    const int there = open_folder(cli, folder, force);
+    begin_folder(cli, folder);
     import->folder = unfinished;
     import->name = name;
     if (run_import(cli, import, &err))
         give_up(cli, &err);
     watchdog_go_on();
-    const int there = exists(folder);
-    int code = !there && rename(unfinished, folder) != 0
-                   ? retex_fail(&err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno))
-                   : RETEX_OK;
-    if (there)
-        code = move_files(unfinished, folder, &err);
+    int code = RETEX_OK;
+    if (there >= 0)
+        code = move_files(unfinished_folder, "", there, folder, &err);
+    else if (rename(unfinished, folder) != 0)
+        code = retex_fail(&err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
     if (code)
         give_up(cli, &err);
-    if (there)
+    if (there >= 0)
         remove_unfinished("");
     unfinished[0] = '\0';
     cli_info(cli, "wrote %s/%s.pov", folder, name);

@@ -336,6 +336,27 @@ $ retex-import -q --force card.gltf -o own/ && cat own/mine.txt && head -n 1 own
 > // Made of card.gltf by retex-import 0.1.0.
 > own
 > own.exr
+
+# A folder of a stranger's archive leads nowhere else, by what it is or by what is in it.
+$ mkdir mine theirs && echo mine >mine/theirs.pov && echo mine >mine/Image.png && cp -r mine kept &&
++     ln -s mine link && ln -s ../mine theirs/textures && ln -s ../mine/theirs.pov theirs/theirs.pov
+$ for out in link link/ ./link; do retex-import -q --force card.gltf -o $out; done
+! retex-import: error: cannot write into link: it is a link; name the folder that it leads to
+! retex-import: error: cannot write into link: it is a link; name the folder that it leads to
+! retex-import: error: cannot write into ./link: it is a link; name the folder that it leads to
+= 2
+$ retex-import -q --force card.gltf -o theirs
+! retex-import: error: cannot write theirs/textures/Image.png: there is a link on the way
+= 2
+$ diff -r mine kept && rm theirs/textures && ls -d link* theirs*
+> link
+> theirs
+$ retex-import -q --force card.gltf -o theirs && diff -r mine kept && head -n 1 theirs/theirs.pov && ls -F theirs
+> // Made of card.gltf by retex-import 0.1.0.
+> textures/
+> theirs-meshes.inc
+> theirs.pov
+
 $ retex-import card.glb
 ! retex-import: error: no output: give a folder to make, -o NAME
 = 2

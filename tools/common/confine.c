@@ -99,19 +99,17 @@ static const int computing[] = {
     __NR_uname,
 };
 
-/* Calls for files by name. What of them changes files is restricted to a folder by Landlock. */
+/* Calls for files by name. What of them changes files is restricted to a folder by Landlock. What it knows nothing of
+ * is left out: modes, owners, times and attributes, locks, and ioctl(2), which types into the user's terminal. */
 static const int using_files[] = {
-    __NR_openat,     __NR_newfstatat, __NR_statx,     __NR_readlinkat, __NR_faccessat, __NR_faccessat2,
-    __NR_getdents64, __NR_getcwd,     __NR_statfs,    __NR_fstatfs,    __NR_write,     __NR_writev,
-    __NR_pwrite64,   __NR_ftruncate,  __NR_fsync,     __NR_fdatasync,  __NR_fchmod,    __NR_fchmodat,
-    __NR_umask,      __NR_unlinkat,   __NR_renameat2, __NR_mkdirat,    __NR_utimensat, __NR_memfd_create,
-    __NR_mmap,       __NR_mprotect,   __NR_pipe2,     __NR_dup3,       __NR_fcntl,     __NR_flock,
-    __NR_fadvise64,  __NR_ioctl,      __NR_fallocate, __NR_getuid,     __NR_geteuid,   __NR_getgid,
-    __NR_getegid,    __NR_sysinfo,    __NR_linkat,    __NR_renameat,   __NR_fchdir,    __NR_set_tid_address,
+    __NR_openat,     __NR_newfstatat, __NR_statx,     __NR_readlinkat, __NR_faccessat,    __NR_faccessat2,
+    __NR_getdents64, __NR_getcwd,     __NR_statfs,    __NR_fstatfs,    __NR_fadvise64,    __NR_write,
+    __NR_writev,     __NR_pwrite64,   __NR_ftruncate, __NR_fsync,      __NR_fdatasync,    __NR_unlinkat,
+    __NR_renameat,   __NR_renameat2,  __NR_mkdirat,   __NR_linkat,     __NR_memfd_create, /* OpenImageIO writes pictures to files alone: see MemoryFile in tools/bridge/write.cpp */
+    __NR_getuid,     __NR_geteuid,    __NR_getgid,    __NR_getegid,    __NR_sysinfo,
 #ifdef __NR_open /* those of old */
-    __NR_open,       __NR_stat,       __NR_lstat,     __NR_readlink,   __NR_access,    __NR_unlink,
-    __NR_rename,     __NR_mkdir,      __NR_rmdir,     __NR_pipe,       __NR_dup2,      __NR_poll,
-    __NR_arch_prctl, __NR_link,       __NR_chmod,     __NR_getdents,
+    __NR_open,       __NR_stat,       __NR_lstat,     __NR_readlink,   __NR_access,       __NR_unlink,
+    __NR_rename,     __NR_mkdir,      __NR_rmdir,     __NR_link,
 #endif
 };
 
@@ -137,11 +135,16 @@ static void allow(Filter *filter, int call)
     answer(filter, SECCOMP_RET_ALLOW);
 }
 
-/* The low half of an argument of a call: of numbers that small the kernel looks at no more. */
-static size_t argument(int number)
+/* The halves of an argument of a call. Of flags and descriptors the kernel looks at the low one alone. */
+static size_t low_half(int number)
 {
     return offsetof(struct seccomp_data, args) + (size_t)number * sizeof(uint64_t) +
            (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? sizeof(uint32_t) : 0);
+}
+
+static size_t high_half(int number)
+{
+    return low_half(number) ^ sizeof(uint32_t);
 }
 
 static void load_number(Filter *filter)
@@ -149,16 +152,34 @@ static void load_number(Filter *filter)
     load(filter, offsetof(struct seccomp_data, nr));
 }
 
-/* Allow a call if those bits of an argument have that value. */
-static void allow_where(Filter *filter, int call, int number, uint32_t mask, uint32_t value)
+/* These bits of what lies there have that value. */
+typedef struct Condition {
+    size_t at;
+    uint32_t mask, value;
+} Condition;
+
+enum { MOST_CONDITIONS = 3 };
+
+/* Allow a call if all conditions hold, up to the first whose mask is 0. */
+static void allow_where(Filter *filter, int call, const Condition conditions[MOST_CONDITIONS])
 {
-    add(filter, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)call, 0, 5));
-    load(filter, argument(number));
-    add(filter, (struct sock_filter)BPF_STMT(BPF_ALU | BPF_AND | BPF_K, mask));
-    add(filter, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1));
+    int count = 0;
+    while (count < MOST_CONDITIONS && conditions[count].mask)
+        count++;
+    add(filter,
+        (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)call, 0, (unsigned char)(3 * count + 2)));
+    for (int i = 0; i < count; i++) {
+        const unsigned char rest = (unsigned char)(3 * (count - i - 1) + 1);
+        load(filter, conditions[i].at);
+        add(filter, (struct sock_filter)BPF_STMT(BPF_ALU | BPF_AND | BPF_K, conditions[i].mask));
+        add(filter, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, conditions[i].value, 0, rest));
+    }
     answer(filter, SECCOMP_RET_ALLOW);
     load_number(filter);
 }
+
+#define WHERE(...) ((const Condition[MOST_CONDITIONS]){__VA_ARGS__})
+#define WHOLE 0xffffffff
 
 static void begin(Filter *filter)
 {
@@ -170,11 +191,19 @@ static void begin(Filter *filter)
     for (size_t i = 0; i < sizeof computing / sizeof *computing; i++)
         allow(filter, computing[i]);
     /* threads, but no processes; glibc uses clone where clone3, whose arguments a filter cannot see, is unknown */
-    allow_where(filter, __NR_clone, 0, CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
-                CLONE_THREAD | CLONE_VM | CLONE_SIGHAND);
+    enum { THREAD = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND };
+    allow_where(filter, __NR_clone, WHERE({low_half(0), THREAD, THREAD}));
     add(filter, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_clone3, 0, 1));
     answer(filter, SECCOMP_RET_ERRNO | ENOSYS);
-    allow_where(filter, __NR_prlimit64, 2, 0xffffffff, 0); /* to ask */
+    /* to ask for a limit of its own */
+    allow_where(filter, __NR_prlimit64,
+                WHERE({low_half(0), WHOLE, 0}, {low_half(2), WHOLE, 0}, {high_half(2), WHOLE, 0}));
+    /* memory that is no program */
+    allow_where(filter, __NR_mmap, WHERE({low_half(2), PROT_EXEC, 0}));
+    allow_where(filter, __NR_mprotect, WHERE({low_half(2), PROT_EXEC, 0}));
+    /* F_SETOWN and F_SETSIG would send signals, others lock files of the user */
+    allow_where(filter, __NR_fcntl, WHERE({low_half(1), WHOLE, F_DUPFD_CLOEXEC}));
+    allow_where(filter, __NR_fcntl, WHERE({low_half(1), WHOLE, F_GETFL}));
 }
 
 static int set_filter(Filter *filter)
@@ -190,12 +219,8 @@ static int allow_open_files(void)
 {
     Filter filter;
     begin(&filter);
-    allow_where(&filter, __NR_write, 0, 0xffffffff, STDOUT_FILENO);
-    allow_where(&filter, __NR_mmap, 2, PROT_EXEC, 0);
-    allow_where(&filter, __NR_mprotect, 2, PROT_EXEC, 0);
-    allow_where(&filter, __NR_newfstatat, 3, AT_EMPTY_PATH, AT_EMPTY_PATH); /* is fstat */
-    allow_where(&filter, __NR_fcntl, 1, 0xffffffff, F_DUPFD_CLOEXEC);
-    allow_where(&filter, __NR_fcntl, 1, 0xffffffff, F_GETFL);
+    allow_where(&filter, __NR_write, WHERE({low_half(0), WHOLE, STDOUT_FILENO}));
+    allow_where(&filter, __NR_newfstatat, WHERE({low_half(3), AT_EMPTY_PATH, AT_EMPTY_PATH})); /* is fstat */
     return set_filter(&filter);
 }
 
@@ -205,6 +230,10 @@ static int allow_files(void)
     begin(&filter);
     for (size_t i = 0; i < sizeof using_files / sizeof *using_files; i++)
         allow(&filter, using_files[i]);
+    /* Programs out of files alone, not to be written to: TBB loads its allocator when Embree starts, and the bridge
+     * loads OpenImageIO and what it stands on for the first picture that needs it. */
+    allow_where(&filter, __NR_mmap,
+                WHERE({low_half(2), PROT_EXEC | PROT_WRITE, PROT_EXEC}, {low_half(3), MAP_ANONYMOUS, 0}));
     return set_filter(&filter);
 }
 
@@ -295,12 +324,9 @@ int confine_to_open_files(void)
     return (files ? CONFINE_FILES : 0) | (allow_open_files() ? CONFINE_CALLS : 0);
 }
 
-int confine_to_folder(const char *folder)
+int confine_to_folder(int folder)
 {
-    const int open_folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
-    const int files = open_folder >= 0 && restrict_files(1, open_folder, NULL);
-    if (open_folder >= 0)
-        close(open_folder);
+    const int files = restrict_files(1, folder, NULL);
     return (files ? CONFINE_FILES : 0) | (allow_files() ? CONFINE_CALLS : 0);
 }
 

@@ -13,8 +13,9 @@ enum { CONFINE_CALLS = 1, CONFINE_FILES = 2 };
 int confine_to_open_files(void);
 
 /* Besides: to read files, to load libraries, to write to files that are open, and to make, change and remove files
- * below one folder; without Landlock, wherever the user may. No sockets, no programs. */
-int confine_to_folder(const char *folder);
+ * below one open folder, wherever its name leads by then; below none if it is -1; without Landlock, wherever the user
+ * may. No modes, owners and times of files, no sockets, no programs. */
+int confine_to_folder(int folder);
 
 /* Only of files: to make, change and remove them below an open folder, whatever has its name by then, and to write to
  * /dev/null. It may start programs, which are confined as it is, but not use the network. Without Landlock nothing is
