@@ -141,7 +141,7 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
     assert_true(rows && scratch);
     for (int i = 0; i < set->nfootprints; i++)
         rows[i] = scatter->images[i].pixels;
-    test_must(retex_polynomial_open(&polynomial, set, samples, NULL, NULL, 1, 1, &err), &err);
+    test_must(retex_polynomial_open(&polynomial, set, samples, NULL, NULL, POLYNOMIAL_APART, 1, &err), &err);
     test_must(retex_polynomial_row_open(&row, &polynomial, &err), &err);
     test_must(retex_polynomial_row_make(&row, 0, &err), &err);
     test_must(retex_estimate_row(&row, 0, rows, rows, scratch, rgb, &err), &err);

@@ -127,7 +127,7 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     if (!code)
         code = open_developer(&developer, set, samples, textures, &own, nthreads, err);
     if (!code)
-        code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 0, nthreads, err);
+        code = retex_polynomial_open(&polynomial, set, samples, textures, &own, POLYNOMIAL_GROUPED, nthreads, err);
     if (code)
         return code;
     RetexRowSpan rows = {0, set->height};
@@ -164,7 +164,7 @@ static int open_original(RetexPolynomial *polynomial, const RetexSet *set, Retex
 {
     RetexCombineParams all = RETEX_COMBINE_INIT;
     all.terms_only = 1;
-    return retex_polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
+    return retex_polynomial_open(polynomial, set, NULL, NULL, &all, POLYNOMIAL_GROUPED, 1, err);
 }
 
 int retex_combine_check(const RetexSet *set, RetexError *err)
@@ -223,7 +223,7 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
     if (!code)
         code = open_developer(&developer, set, samples, none, &own, nthreads, err);
     if (!code)
-        code = retex_polynomial_open(&polynomial, set, samples, NULL, &own, 0, nthreads, err);
+        code = retex_polynomial_open(&polynomial, set, samples, NULL, &own, POLYNOMIAL_GROUPED, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);

@@ -118,7 +118,7 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
     RetexRowSpan rows = {0, set->height};
     if (own.y1 > own.y0)
         rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
-    int code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 1, nthreads, err);
+    int code = retex_polynomial_open(&polynomial, set, samples, textures, &own, POLYNOMIAL_APART, nthreads, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);

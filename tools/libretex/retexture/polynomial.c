@@ -2,6 +2,7 @@
 #include "retexture/polynomial.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,43 @@
 
 #define ALL_CROSS_TERMS 3
 
+int retex_polynomial_common(const RetexPolynomial *p, float common[3], int least[3])
+{
+    const RetexSet *set = p->set;
+    int apart = p->lamp_pictures;
+    for (int t = 0; t < set->ntargets; t++)
+        apart |= p->mapped[t];
+    for (int c = 0; c < 3; c++) {
+        common[c] = apart ? 0 : FLT_MAX;
+        least[c] = -1;
+        for (int i = 0; i < set->nparameters && !apart; i++) {
+            const float kept = set->parameters[i].kept[c], value = p->parameters[i][c];
+            if (set->parameters[i].kind == RETEX_PARAMETER_COLOR && kept > 0 && value / kept < common[c])
+                common[c] = value / kept, least[c] = i;
+        }
+        common[c] = !apart && least[c] < 0 ? 1 : common[c];
+    }
+    return apart;
+}
+
+float retex_polynomial_beyond(float value, float kept, float common)
+{
+    return kept > 0 && value / kept <= common ? 0 : fmaxf(value - common * kept, 0);
+}
+
+/* Takes from the lamps what all have in common, which comes with all light. */
+static void share_light(RetexPolynomial *p)
+{
+    int least[3];
+    if (!p->lamps || p->apart == POLYNOMIAL_LAMPS_APART)
+        return;
+    retex_polynomial_common(p, p->common, least);
+    for (int i = 0; i < p->set->nparameters; i++)
+        for (int c = 0; c < 3 && p->set->parameters[i].kind == RETEX_PARAMETER_COLOR; c++)
+            p->parameters[i][c] =
+                retex_polynomial_beyond(p->parameters[i][c], p->set->parameters[i].kept[c], p->common[c]);
+}
+
 /* Finds what is edited. Corrections, and the picture of part 0, are those of all cross terms. */
 static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
 {
@@ -29,7 +67,7 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
     }
     for (int t = 0; t < set->ntargets; t++)
         count += p->edited[t];
-    const int corrected = p->apart != 1 && p->cross == ALL_CROSS_TERMS;
+    const int corrected = p->apart != POLYNOMIAL_APART && p->cross == ALL_CROSS_TERMS;
     p->lamps = retex_set_has_role(set, RETEX_ROLE_LAMP);
     for (int i = 0; i < set->nparameters; i++) {
         const RetexParameter *parameter = &set->parameters[i];
@@ -40,13 +78,12 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
             const float value = params->parameters ? params->parameters[3 * i + c] : parameter->value[c];
             p->parameters[i][c] = corrects ? (float)weight : value;
             changed |= !corrects && value != parameter->value[c];
-            p->relit |= p->lamps && !corrects && value != parameter->kept[c];
         }
     }
     const int original = !params->terms_only && corrected && !count;
     p->picture = set->nterms ? original && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE)
                              : set->nparts > 0 && set->parts[0].image.channels == 3; /* a plain picture */
-    p->lamp_pictures = original && p->relit && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
+    p->lamp_pictures = original && changed && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
 }
 
 /* ---- opening ---- */
@@ -118,13 +155,13 @@ void retex_polynomial_close(RetexPolynomial *p)
 }
 
 int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSamples *samples,
-                          RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
-                          RetexError *err)
+                          RetexTexture *const *textures, const RetexCombineParams *params, RetexPolynomialTerms apart,
+                          int nthreads, RetexError *err)
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
     const RetexCombineParams given = params ? *params : defaults;
     *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart, .cross = given.cross,
-                           .kept = given.kept};
+                           .kept = given.kept, .common = {1, 1, 1}};
     p->columns = (RetexRowSpan){0, set->width};
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
@@ -141,6 +178,7 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
         return code;
     find_edited(p, &given);
     code = retex_polynomial_find_maps(p, err);
+    share_light(p);
     p->reduced = calloc((size_t)retex_polynomial_slot_count(set) + 1, sizeof *p->reduced);
     p->terms = calloc((size_t)set->nterms + 1, sizeof *p->terms);
     if (!code && (!p->reduced || !p->terms))

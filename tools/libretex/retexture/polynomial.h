@@ -8,9 +8,15 @@
 
 /* Open the polynomial with the terms that params select (NULL = defaults). Borrows set, samples and textures. */
 int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
-                          RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
-                          RetexError *err);
+                          RetexTexture *const *textures, const RetexCombineParams *params, RetexPolynomialTerms apart,
+                          int nthreads, RetexError *err);
 void retex_polynomial_close(RetexPolynomial *polynomial);
+/* What the lamps with the polynomial's parameters have in common, in times of what they are kept with: the least of all.
+ * That much of all light counts, with its corrections; of each lamp what it has beyond. least: the parameter that has
+ * it, or -1. Returns 1, with nothing in common, where light of single lamps stands for all. */
+int retex_polynomial_common(const RetexPolynomial *polynomial, float common[3], int least[3]);
+/* What a lamp has beyond: value - common * kept, exactly 0 of the least. */
+float retex_polynomial_beyond(float value, float kept, float common);
 
 /* Terms over one row that differ only in radiance, or in reduced factors: radiance times the product of factors. */
 typedef struct RetexMonomial {

@@ -12,18 +12,11 @@
 
 /* ---- what a factor is made of ---- */
 
-/* Whether a term counts with lamps as they are: all but lamps' where none has another value than it was kept with. */
-static int is_lit(const RetexPolynomial *p, const RetexTerm *term)
-{
-    if (p->lamp_pictures || term->role == RETEX_ROLE_LAMP_PICTURE)
-        return p->lamp_pictures && term->role == RETEX_ROLE_LAMP_PICTURE;
-    return !p->lamps || (retex_set_term_lamp(p->set, term) >= 0) == p->relit;
-}
-
 int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term, const float weight[3])
 {
     if (p->picture || term->role == RETEX_ROLE_PICTURE || (term->role == RETEX_ROLE_CROSS2 && p->cross < 2) ||
-        (term->role == RETEX_ROLE_CROSS3 && p->cross < 3) || !is_lit(p, term))
+        (term->role == RETEX_ROLE_CROSS3 && p->cross < 3) ||
+        (term->role == RETEX_ROLE_LAMP_PICTURE) != p->lamp_pictures)
         return 0;
     return weight[0] != 0 || weight[1] != 0 || weight[2] != 0;
 }

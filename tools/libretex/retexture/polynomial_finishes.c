@@ -32,7 +32,6 @@ int retex_polynomial_find_maps(RetexPolynomial *p, RetexError *err)
         if (p->mapped[t] && p->mapped[t] != set->targets[t].nfinishes)
             return retex_fail(err, RETEX_EINVAL, "a map of %d finishes for %s, which has %d", p->mapped[t],
                               set->targets[t].name, set->targets[t].nfinishes);
-        p->relit |= p->mapped[t] && p->lamps;
         p->has_normals |= p->mapped[t] && set->targets[t].normal_tilt > 0;
         for (int i = 0; i < set->nparameters; i++) {
             const float *value = p->parameters[i];
@@ -129,6 +128,10 @@ void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm 
         for (int t = 0; t < p->set->ntargets; t++)
             if (p->mapped[t] && p->set->parameters[factor.index].finishes[t])
                 finishes[t] = p->set->parameters[factor.index].finishes[t];
+    }
+    for (int c = 0; c < 3 && p->lamps && retex_set_term_lamp(p->set, term) < 0; c++) {
+        made->weight[c] *= p->common[c];
+        made->weighted |= p->common[c] != 1;
     }
     for (int t = 0; t < p->set->ntargets; t++) {
         const int own = finishes[t] ? first_hit(p, term, made, t) : -1;

@@ -17,20 +17,28 @@ typedef struct RetexPolynomialTerm {
     float weight[3];
 } RetexPolynomialTerm;
 
+/* Which terms are monomials. */
+typedef enum RetexPolynomialTerms {
+    POLYNOMIAL_GROUPED,    /* groups of terms, see polynomial_groups.h */
+    POLYNOMIAL_APART,      /* each term, with all its factors; no corrections */
+    POLYNOMIAL_CORRECTED,  /* with corrections */
+    POLYNOMIAL_LAMPS_APART /* and both all light as it is kept and that of each lamp, which nothing is taken from */
+} RetexPolynomialTerms;
+
 typedef struct RetexPolynomial {
     const RetexSet *set;
     const RetexSamples *samples;   /* or NULL */
     RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
     RetexKeptSamples *const *kept; /* samples of these textures, by target, or NULL */
     int cross;
-    int apart;                                 /* 1: one monomial for each term, with all its factors, and no
-                                                 corrections; 2: with corrections; 0: terms are grouped */
+    RetexPolynomialTerms apart;
     char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
     int picture;                               /* 1: part 0 is the result, and there are no terms */
-    int lamps, relit;                          /* 1: the set has terms of lamps; they stand for all others, */
-    int lamp_pictures;                         /* or the lamps' pictures do */
+    int lamps;                                 /* 1: the set has terms of lamps */
+    int lamp_pictures;                         /* 1: the lamps' pictures stand for all other terms */
+    float common[3];                           /* what terms of all light are multiplied by */
     RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
-    float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
+    float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here; of lamps, what these have beyond `common` */
     int has_normals;                           /* 1: a target has a normal map */
     int mapped[RETEX_MAX_TARGETS];             /* by target, the number of finishes that a map tells apart; 0: no map */
     int shown[RETEX_MAX_TARGETS];              /* of these, the finish that shows where the map is transparent */

@@ -28,6 +28,9 @@ typedef struct Evaluation {
     RetexTexture *higher[RETEX_MAX_TARGETS];                     /* the same */
     RetexTexture *all[1 + RETEX_MAX_TARGETS][RETEX_MAX_TARGETS]; /* of each polynomial; borrowed */
     signed char *term_column; /* by term, the column of its lamp; -1: none is sought */
+    float common[3];          /* what lamps that are sought have in common with those that are given, */
+    int least[3];             /* and the parameter that has no more; see retex_polynomial_common */
+    float values_of[RETEX_PARAMETERS_MAX][3]; /* parameters, with lamps as they are sought here */
     RetexEquations *strips;   /* by strip */
 } Evaluation;
 
@@ -78,7 +81,9 @@ static int open_textures(Evaluation *e, RetexError *err)
 static int open_polynomial(RetexPolynomial *p, const Evaluation *e, int number, int nthreads, RetexError *err)
 {
     const RetexSolveModel *m = e->model;
-    const int code = retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine, 2, nthreads, err);
+    const int code = retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
+                                           m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED,
+                                           nthreads, err);
     if (!code)
         p->columns = (RetexRowSpan){m->combine.x0, m->combine.x1};
     return code;
@@ -100,6 +105,27 @@ static int find_lamp(const RetexSolveModel *m, const RetexTerm *term)
     return -1;
 }
 
+/* The column of a lamp that is sought, by its parameter; -1: it is none. */
+static int find_parameter(const RetexSolveModel *m, int parameter)
+{
+    const RetexTerm term = {.nfactors = 1, .factors = {retex_factor(RETEX_FACTOR_PARAMETER, parameter)}};
+    return find_lamp(m, &term);
+}
+
+/* What lamps have in common where they have the values of the columns. */
+static void find_common(Evaluation *e)
+{
+    RetexPolynomial lit = e->here;
+    for (int i = 0; i < e->model->set->nparameters; i++) {
+        const int column = find_parameter(e->model, i);
+        for (int c = 0; c < 3 && column >= 0; c++)
+            lit.parameters[i][c] *=
+                (float)e->values[e->model->columns[column].number[c]] / (float)RETEX_SOLVE_LAMP_UNIT;
+    }
+    memcpy(e->values_of, lit.parameters, sizeof e->values_of);
+    retex_polynomial_common(&lit, e->common, e->least);
+}
+
 static int open_evaluation(Evaluation *e, int strips, int nthreads, RetexError *err)
 {
     while (e->ntargets < e->model->ncolumns && e->model->columns[e->ntargets].target >= 0)
@@ -115,6 +141,8 @@ static int open_evaluation(Evaluation *e, int strips, int nthreads, RetexError *
         code = open_polynomial(&e->ahead[j], e, 1 + j, nthreads, err);
     for (int t = 0; t < e->model->set->nterms && !code; t++)
         e->term_column[t] = (signed char)find_lamp(e->model, &e->model->set->terms[t]);
+    if (!code)
+        find_common(e);
     return code;
 }
 
@@ -202,6 +230,39 @@ static int slope_row(StripRows *s, const Evaluation *e, int slot, const float *h
     return RETEX_OK;
 }
 
+/* What a monomial counts: all light as much as lamps have in common, a lamp's what it has beyond. slope: its derivative
+ * by what they have in common. */
+static void weigh(float weight[3], float slope[3], const Evaluation *e, const RetexTerm *term)
+{
+    const RetexSet *set = e->model->set;
+    const int lamp = e->here.apart == POLYNOMIAL_LAMPS_APART ? retex_set_term_lamp(set, term) : -1;
+    for (int c = 0; c < 3; c++) {
+        const int together = e->here.lamps && e->here.apart == POLYNOMIAL_LAMPS_APART;
+        const float kept = lamp < 0 ? 0 : set->parameters[lamp].kept[c];
+        const float own = lamp < 0 ? 0 : e->here.parameters[lamp][c];
+        weight[c] = !together  ? 1
+                    : lamp < 0 ? e->common[c]
+                    : own > 0  ? retex_polynomial_beyond(e->values_of[lamp][c], kept, e->common[c]) / own
+                               : 0;
+        slope[c] = !together ? 0 : lamp < 0 ? 1 : own > 0 ? -kept / own : 0;
+    }
+}
+
+/* Adds the derivative by the lamp that lets the lamps have no more in common. */
+static void add_common(StripRows *s, const Evaluation *e, const float slope[3], size_t first, size_t n)
+{
+    const RetexSolveModel *m = e->model;
+    for (int c = 0; c < 3; c++) {
+        const int column = e->least[c] < 0 ? -1 : find_parameter(m, e->least[c]);
+        float weight[3] = {0};
+        if (column < 0)
+            continue;
+        weight[c] = slope[c] * e->here.parameters[e->least[c]][c] /
+                    (RETEX_SOLVE_LAMP_UNIT * m->set->parameters[e->least[c]].kept[c]);
+        retex_row_add(s->columns + 3 * (size_t)m->set->width * (size_t)column + first, s->value, weight, n);
+    }
+}
+
 /* Adds a monomial to the row's value, and its derivatives to those of the row. */
 static int add_monomial(StripRows *s, const Evaluation *e, const RetexMonomial *m, int y, float *sum, RetexError *err)
 {
@@ -209,7 +270,7 @@ static int add_monomial(StripRows *s, const Evaluation *e, const RetexMonomial *
     const size_t width = (size_t)e->model->set->width, first = 3 * (size_t)span.begin;
     const size_t n = retex_span_is_empty(span) ? 0 : 3 * (size_t)(span.end - span.begin);
     const int lamp = e->term_column[m->term];
-    float weight[3], unit[3];
+    float weight[3], slope_of[3], unit[3];
     int moves[RETEX_MAX_TARGETS] = {0}, code = RETEX_OK;
     if (!n)
         return RETEX_OK;
@@ -229,10 +290,9 @@ static int add_monomial(StripRows *s, const Evaluation *e, const RetexMonomial *
         }
         retex_row_multiply(s->value, m->factors[k] + first, n);
     }
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         unit[c] = 1.f / RETEX_SOLVE_LAMP_UNIT;
-        weight[c] = lamp < 0 ? 1 : (float)e->values[e->model->columns[lamp].number[c]] * unit[c];
-    }
+    weigh(weight, slope_of, e, &e->model->set->terms[m->term]);
     retex_row_add(sum + first, s->value, weight, n);
     for (int j = 0; j < e->ntargets; j++)
         if (moves[j])
@@ -240,6 +300,7 @@ static int add_monomial(StripRows *s, const Evaluation *e, const RetexMonomial *
                           n);
     if (lamp >= 0)
         retex_row_add(s->columns + 3 * width * (size_t)lamp + first, s->value, unit, n);
+    add_common(s, e, slope_of, first, n);
     return RETEX_OK;
 }
 
