@@ -58,6 +58,8 @@ int light_lamps(const Arguments *a, Scene *scene, RetexError *err)
         code = make_parameters(&set, scene, err);
     if (!code)
         code = retex_edit_parameters(edit, set, values[0], err);
+    if (!code)
+        lamp_args_warn(a->cli, set, values[0]);
     for (int l = 0; l < scene->nlamps && !code; l++)
         scene_light_lamp(&scene->lamps[l], rgb(values[l][0], values[l][1], values[l][2]), !a->lamps_by_light);
     retex_set_close(&set);

@@ -8,6 +8,7 @@
 
 #define LIST_WIDTH 160 /* of the picture that shares are found by */
 #define LIST_SPP 16
+#define REST_LEAST 5e-5 /* less of all light would be told as 0.00 % */
 
 static void print_color(const char *before, Rgb c)
 {
@@ -23,8 +24,10 @@ static void print_lamp(const Scene *scene, Lamp *lamp, double share)
     }
     if (strcmp(lamp->name, lamp->idents) != 0)
         printf("=%s", cli_plain(lamp->idents));
-    if (lamp->several)
+    if (lamp->several && !lamp->has_one_color)
         printf("  several colours");
+    else if (lamp->several)
+        print_color("  ", rgb_mul(lamp->color, lamp->value)), printf(", by which a new one is multiplied");
     else if (rgb_is_black(lamp->value))
         print_color("  off, if on ", lamp->kept);
     else
@@ -41,17 +44,29 @@ static double mean_luminance(const RetexImage *image, Rgb scale)
     return sum;
 }
 
-/* The shares of the scene's lamps, without targets, in a small and noisy render. */
+/* The same view as the picture's, or of its --crop, small. */
+static void shrink_view(RenderParams *small, const RenderParams *render, const Scene *scene)
+{
+    const double width = render->width ? render->width : scene->width;
+    const double height = render->height ? render->height : scene->height;
+    const double scale = fmin(1, LIST_WIDTH / (render->crop[2] ? render->crop[2] : width));
+    small->width = (int)fmax(1, round(width * scale));
+    small->height = (int)fmax(1, small->width * height / width);
+    for (int k = 0; k < 2 && render->crop[2]; k++) {
+        const int size = k ? small->height : small->width;
+        small->crop[k] = (int)fmin(render->crop[k] * scale, size - 1);
+        small->crop[2 + k] = (int)fmax(1, fmin(render->crop[2 + k] * scale, size - small->crop[k]));
+    }
+}
+
+/* The shares of the scene's lamps in a small and noisy render. */
 static int find_shares(const Arguments *a, const Scene *scene, double shares[LAMPS_MAX + 1], RetexError *err)
 {
     RenderParams params = RENDER_PARAMS_INIT;
     RenderStats stats;
     RetexSet *set = NULL;
     const RetexTerm *term;
-    const double width = a->render.width ? a->render.width : scene->width;
-    const double height = a->render.height ? a->render.height : scene->height;
-    params.width = (int)(width < LIST_WIDTH ? width : LIST_WIDTH);
-    params.height = (int)fmax(1, params.width * height / width);
+    shrink_view(&params, &a->render, scene);
     params.spp = LIST_SPP, params.nthreads = a->render.nthreads, params.budget = a->render.budget;
     int code = render_scene(&set, scene, &params, &stats, err);
     if (code)
@@ -73,10 +88,9 @@ static int find_shares(const Arguments *a, const Scene *scene, double shares[LAM
 static int list_resolved(Arguments *a, Scene *scene, int rest, RetexError *err)
 {
     double shares[LAMPS_MAX + 1] = {0};
-    scene->ntargets = 0;
     const int code = find_shares(a, scene, shares, err);
     for (int l = 0; l < scene->nlamps && !code; l++)
-        if (l != scene_rest_lamp(scene) || (rest && shares[l] > 0))
+        if (l != scene_rest_lamp(scene) || (rest && shares[l] >= REST_LEAST))
             print_lamp(scene, &scene->lamps[l], shares[l]);
     return code;
 }
@@ -99,9 +113,18 @@ static int list_each(Arguments *a, Scene *scene, RetexError *err)
     return code;
 }
 
+/* Shares are of all light, whatever it meets: targets and their finishes, which have been checked by now, would keep it
+ * in other parts of the set. */
 void list_lamps(Arguments *a, Scene *scene)
 {
     RetexError err;
-    if (scene->nlamps ? list_resolved(a, scene, 1, &err) : list_each(a, scene, &err))
+    int code = render_check_window(scene, &a->render, &err);
+    if (!code)
+        code = scene_resolve_targets(scene, NULL, 0, &err);
+    if (!code)
+        code = scene_resolve_finishes(scene, NULL, 0, NULL, 0, &err);
+    if (!code)
+        code = scene->nlamps ? list_resolved(a, scene, 1, &err) : list_each(a, scene, &err);
+    if (code)
         cli_fail(a->cli, &err);
 }

@@ -28,6 +28,8 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
 int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
                    ControlMode mode, double *distance, RenderStats *stats, RetexError *err);
 
+/* Whether the picture has a size that can be, and its crop lies inside it. */
+int render_check_window(const Scene *scene, const RenderParams *params, RetexError *err);
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
 

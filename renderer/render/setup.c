@@ -81,6 +81,12 @@ static int set_window(Render *r, RetexError *err)
     return RETEX_OK;
 }
 
+int render_check_window(const Scene *scene, const RenderParams *params, RetexError *err)
+{
+    Render r = {.scene = scene, .params = *params};
+    return set_window(&r, err);
+}
+
 void render_close_films(Render *r)
 {
     if (r->pixels)

@@ -260,6 +260,7 @@ static void settle_color(Scene *scene, int l, const LampColor *color)
     Lamp *lamp = &scene->lamps[l];
     const float bright = rgb_luminance(color->color);
     lamp->several = color->several || (color->surfaces && has_zero(color->color));
+    lamp->has_one_color = !color->several, lamp->color = color->color;
     lamp->value = lamp->kept = lamp->several ? rgb_grey(1) : color->color;
     if (!lamp->several && has_zero(color->color)) {
         lamp->kept = rgb_grey(bright > 0 ? bright : 1);
@@ -357,10 +358,10 @@ static void mark_sky(Scene *scene, const LampSelectors *selectors, LampColor *co
     if (lamp < 0)
         return;
     colors[lamp].count++, colors[lamp].surfaces = 1;
-    if (scene->sky)
+    if (scene->sky && !scene->sky->has_one_color)
         colors[lamp].several = 1;
     else
-        add_color(&colors[lamp], scene->background);
+        add_color(&colors[lamp], scene->sky ? scene->sky->color : scene->background);
 }
 
 static void mark_all(Scene *scene, const LampSelectors *selectors, LampColor *colors)

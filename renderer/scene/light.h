@@ -105,6 +105,8 @@ typedef struct SkySphere {
     const Pigment **pigments;
     Rgb emission;            /* factor on it, default 1 */
     int filters;             /* filter tints what lies below; in scenes before version 3.7 it is the same as transmit */
+    int has_one_color;       /* 1: its radiance is `color` in all directions, seen and as light */
+    Rgb color;
 } SkySphere;
 
 /* ---- air ---- */

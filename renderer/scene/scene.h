@@ -74,7 +74,9 @@ typedef struct Target {
 typedef struct Lamp {
     char name[RETEX_NAME_MAX];
     char idents[512]; /* its selectors, comma-separated */
-    int several;      /* 1: it has several colours, or an image */
+    int several;      /* 1: it has several colours, or an image; or a surface whose colour has a channel of 0 */
+    int has_one_color; /* 1: of which `color` is the scene's, of its brightest emitter; also where several is 1 */
+    Rgb color;
     Rgb value;        /* the colour of its light in the scene; white where it has several */
     Rgb kept;         /* the colour that its light has while paths are traced: value, but where that has a channel of 0,
                          which nothing could be made of: then white of the same luminance, or what it would be if on */

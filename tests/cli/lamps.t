@@ -117,6 +117,21 @@ $ retex-pack --unpack b.retex --no-lamps -o y.exr
 ! retex-pack: error: --no-lamps is of packing
 = 2
 
+# A lamp that becomes a million times as bright, by a slip, is told of; one that was off is compared with what it shines
+# with. The picture is made.
+$ retex-combine -q l.exr --light Lamp=1e9 -o x.png
+! retex-combine: warning: lamp Lamp becomes 1e+09 times as bright as it was rendered, and so does its noise
+$ retex-combine -q l.exr --light Lamp=1e6 --light Window='2e6*red' -o x.png
+! retex-combine: warning: lamp Window becomes 2e+06 times as bright as it was rendered, and so does its noise
+$ retex-combine -q o.exr --light Window=999999 -o x.png
+$ retex-combine -q o.exr --light Window=2e6 -o x.png
+! retex-combine: warning: lamp Window becomes 2e+06 times as bright as it was rendered, and so does its noise
+$ printf 'output,light:rest\ny1.png,1e9\ny2.png,1e3\n' >w.csv
+$ retex-combine -q l.exr --batch w.csv
+! retex-combine: warning: lamp rest becomes 1e+09 times as bright as it was rendered, and so does its noise
+$ retex-render -q --plain --size 8x6 --spp 1 "$SCENES/cornell-box/cornell-box.pov" --light Lamp=1e7 -o x.png
+! retex-render: warning: lamp Lamp becomes 1e+07 times as bright as it was rendered, and so does its noise
+
 # What is refused.
 $ retex-combine l.exr --light rets=0 -o y.exr
 ! retex-combine: error: no lamp is called 'rets'; the set has Lamp, Window, rest; is rest meant?

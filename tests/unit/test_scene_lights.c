@@ -160,6 +160,43 @@ static void test_lamp_colors(void **state)
     scene_close(&scene);
 }
 
+/* A sky of one colour, however it is written, is a lamp of that colour; but one with a channel of 0 is multiplied. */
+static void test_sky_colors(void **state)
+{
+    (void)state;
+    const struct {
+        const char *sky;
+        int one, several;
+        double color[3];
+    } cases[] = {
+        {"sky_sphere{pigment{rgb <.4,.6,.9>}}", 1, 0, {0.4, 0.6, 0.9}},
+        {"sky_sphere{pigment{rgb <.2,.4,.8>} emission 2}", 1, 0, {0.4, 0.8, 1.6}},
+        {"sky_sphere{pigment{rgb .5} pigment{rgbt <1,0,0,.5>}}", 1, 0, {0.75, 0.25, 0.25}},
+        {"sky_sphere{pigment{gradient y color_map{[0 rgb <.4,.6,.9>][1 rgb <.4,.6,.9>]}}}", 1, 0, {0.4, 0.6, 0.9}},
+        {"sky_sphere{pigment{gradient y color_map{[0 rgb <.4,.6,.9>][1 rgb <.4,.6,.8>]}}}", 0, 1, {0}},
+        {"sky_sphere{pigment{rgb <0,.5,1>}}", 1, 1, {0, 0.5, 1}},
+        {"background{rgb 1} sky_sphere{pigment{rgbt <1,0,0,.5>}}", 1, 0, {1, 0.5, 0.5}},
+        {"background{rgb 1} sky_sphere{pigment{rgbt <1,0,0,.5>}} light_source{y 1}", 0, 1, {0}}, /* seen, no light */
+        {"background{rgb <.4,.6,.9>}", 1, 0, {0.4, 0.6, 0.9}},
+    };
+    const char *const sky = "sky";
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[512];
+        snprintf(text, sizeof text, V37 "%s", cases[k].sky);
+        Scene *scene = parse(text);
+        assert_int_equal(scene_resolve_lamps(scene, &sky, 1, NULL), 0);
+        const Lamp *lamp = &scene->lamps[0];
+        assert_int_equal(lamp->has_one_color, cases[k].one);
+        assert_int_equal(lamp->several, cases[k].several);
+        const double *c = cases[k].color;
+        if (cases[k].one)
+            assert_color_near(lamp->color, c[0], c[1], c[2]);
+        if (!cases[k].several)
+            assert_color_near(lamp->value, c[0], c[1], c[2]);
+        scene_close(&scene);
+    }
+}
+
 static void test_each_lamp(void **state)
 {
     (void)state;
@@ -437,6 +474,7 @@ int main(void)
         cmocka_unit_test(test_photons),
         cmocka_unit_test(test_names_of_insides),
         cmocka_unit_test(test_sky),
+        cmocka_unit_test(test_sky_colors),
         cmocka_unit_test(test_background_light),
         cmocka_unit_test(test_negative_light),
         cmocka_unit_test(test_targets),

@@ -208,6 +208,8 @@ int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexEr
 {
     const Row row = {job->textures.specs, job->textures.count, kept->textures, job->lights};
     int code = job_light(job, job->lights, err);
+    if (!code && job->combine.parameters)
+        lamp_args_warn(cli, job->set, job->combine.parameters);
     if (!code)
         code = kept_textures_load(kept, job->set, row.specs, row.count, cli->threads, err);
     if (!code) {

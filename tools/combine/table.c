@@ -223,6 +223,8 @@ static int make_row(void *context, int number, size_t *trial, RetexError *err)
     int code = light_row(job, number, &lights, err);
     if (!code)
         code = job_light(job, lights, err);
+    if (!code && !trial && job->combine.parameters)
+        lamp_args_warn(table->cli, job->set, job->combine.parameters);
     if (!code)
         code = kept_textures_load(&table->kept, job->set, specs, count, table->cli->threads, err);
     const Row row = {specs, count, table->kept.textures, lights};

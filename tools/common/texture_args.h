@@ -206,4 +206,25 @@ static inline const char *texture_args_describe(const RetexSamples *samples, cha
     return used ? text : "original textures";
 }
 
+/* Warn of lamps that become so much brighter than they were rendered that it is rather a slip: values are those of
+ * retex_edit_parameters. */
+static inline void lamp_args_warn(const Cli *cli, const RetexSet *set, const float *values)
+{
+    static const double BRIGHT = 1e6; /* --solve finds no brighter ones */
+    const int count = retex_set_info(set).nparameters;
+    for (int i = 0; i < count; i++) {
+        const RetexParameter *p = retex_set_parameter(set, i);
+        char name[RETEX_NAME_MAX] = "";
+        const int is_off = p->value[0] == 0 && p->value[1] == 0 && p->value[2] == 0;
+        const float *was = is_off ? p->kept : p->value, *is = values + 3 * i;
+        const double times = retex_luminance((double)is[0], (double)is[1], (double)is[2]) /
+                             retex_luminance((double)was[0], (double)was[1], (double)was[2]);
+        if (!retex_parameter_lamp(set, i) || !(times > BRIGHT))
+            continue;
+        snprintf(name, sizeof name, "%s", retex_parameter_lamp(set, i));
+        cli_warn(cli, "lamp %s becomes %.3g times as bright as it was rendered, and so does its noise",
+                 cli_plain(name), times);
+    }
+}
+
 #endif

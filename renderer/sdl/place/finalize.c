@@ -6,9 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "light/environment.h"
 #include "sdl/camera/camera.h"
 #include "sdl/medium/air.h"
 #include "sdl/place/place.h"
+#include "shade/pigment.h"
 #include "shade/working_space.h"
 
 /* ---- colours of the working space ---- */
@@ -312,6 +314,22 @@ static void build_sky(Sdl *sdl)
     }
 }
 
+/* Once images are loaded and colours are decoded. */
+static void find_sky_color(Sdl *sdl)
+{
+    const Scene *scene = sdl_scene(sdl);
+    SkySphere *sky = scene->sky;
+    const Vec3 up = vec3(0, 1, 0);
+    for (int i = 0; sky && i < sky->npigments; i++)
+        if (!pigment_is_constant(sky->pigments[i]))
+            return;
+    if (!sky)
+        return;
+    const Rgb light = sky_radiance(scene, up, 0);
+    sky->color = sky_radiance(scene, up, 1);
+    sky->has_one_color = sky->color.r == light.r && sky->color.g == light.g && sky->color.b == light.b;
+}
+
 static void load_images(Sdl *sdl)
 {
     const Scene *scene = sdl_scene(sdl);
@@ -344,6 +362,7 @@ void finalize_scene(Sdl *sdl)
     find_background_light(sdl);
     find_shining(sdl);
     decode_colors(sdl);
+    find_sky_color(sdl);
     camera_finish(sdl);
     complete_finishes(sdl);
     set_emission(sdl);
