@@ -282,6 +282,10 @@ def proxied(server):
     for who, status in (('192.0.2.1', 429), ('192.0.2.2, 192.0.2.1', 429), ('192.0.2.1, 127.0.0.1', 429),
                         ('192.0.2.1:99', 429), ('192.0.2.1, 192.0.2.2', 200), ('2001:db8::1', 200), ('x', 200), ('', 200)):
         expect(who, send(server, image, X_Forwarded_For=who).status, status)
+    unknown = begin_upload(server, X_Forwarded_For='unknown')  # whom a proxy does not know is one client
+    expect('unknown', [send(server, image, X_Forwarded_For=who).status for who in
+                       ('unknown', 'fe80::1%eth0', '', '192.0.2.1,', '192.0.2.7')], [429, 429, 429, 429, 200])
+    unknown.close()
     network = begin_upload(server, X_Forwarded_For='2001:db8:1:2::1')
     expect('its network', [send(server, image, X_Forwarded_For=who).status for who in
                            ('2001:db8:1:2:ffff::', '2001:db8:1:3::1')], [429, 200])
@@ -776,6 +780,14 @@ def slow(server):
     silent.settimeout(8)
     expect('silent', silent.recv(10), b'')
     expect('others', ask(server, '/v1/small/full.jpg').status, 200)
+
+
+def nuls(server):
+    """%00 is of no URL, whatever the method."""
+    for path in ('/%00', '/v1%00', '/v1/small%00/full.png', '/v1/small/full.png%00', '/v1/small/Floor=oak%00/full.png',
+                 '/v1/small/full.png?preset=a%00', '/v1/uploads%00', '/health%00', '/iiif/3/small%00/info.json'):
+        expect(path, [ask(server, path, method).status for method in ('GET', 'HEAD', 'OPTIONS')] +
+               [send(server, b'x', path).status], 4 * [400])
 
 
 def deadline(server):

@@ -19,11 +19,12 @@ $ serve replaced folders contents refused lists metrics
 > refused
 > lists
 > metrics
-$ serve together texts crowd slow deadline end
+$ serve together texts crowd slow nuls deadline end
 > together
 > texts
 > crowd
 > slow
+> nuls
 > deadline
 > end
 $ mkdir presets

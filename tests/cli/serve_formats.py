@@ -1,10 +1,10 @@
 # What serve_formats.t asks of retex-serve: AVIF and JPEG XL, decoded by libheif and djxl, beside PNG and JPEG.
-import subprocess, sys
+import subprocess, sys, time
 
 sys.dont_write_bytecode = True
 import numpy
 import OpenImageIO as oiio
-from serve_ask import ask, expect, run
+from serve_ask import ask, combine, expect, run
 
 TYPES = {'avif': 'image/avif', 'jxl': 'image/jxl', 'webp': 'image/webp', 'jpg': 'image/jpeg', 'png': 'image/png'}
 
@@ -86,4 +86,28 @@ def odd_sizes(server):
                 print(size, ending, numpy.abs(got - plain).max())
 
 
-run(globals(), {}, '--textures', 'textures')
+def large(server):
+    """Pictures that are encoded by another process have the bytes of retex-combine."""
+    for ending in 'webp', 'avif', 'jxl', 'png':
+        for quality in 95, 60:
+            url = f'/v1/large/floor=oak/full.{ending}?quality={quality}'
+            answer = ask(server, url)
+            expect(url, answer.status, 200)
+            wanted = combine('x.' + ending, 'rooms/large.retex', '--texture', 'floor=textures/oak.jpg', '--quality', str(quality))
+            expect(url + ' bytes', answer.body == wanted, True)
+    expect('half', get(server, '/v1/large/500x.avif', 'avif')[0].shape, get(server, '/v1/large/500x.png', 'png')[0].shape)
+
+
+def late(server):
+    """An encoder that takes too long is ended, and others go on. RETEX_DECODER is one that never ends."""
+    for ending in 'avif', 'webp', 'jxl':
+        began = time.time()
+        answer = ask(server, f'/v1/large/full.{ending}')
+        expect(ending, (answer.status, answer.body[:40], answer.getheader('Retry-After')), (503, b'the server is busy\n', '2'))
+        if not 1 <= time.time() - began < 6:
+            print(f'{ending}: {time.time() - began:.1f} s')
+    expect('nothing is left', subprocess.run(['pgrep', '-f', 'sleep 98765'], capture_output=True).stdout, b'')
+    expect('a small one', [ask(server, f'/v1/large/64x.{ending}').status for ending in ('avif', 'webp', 'png')], 3 * [200])
+
+
+run(globals(), {'late': ['--deadline', '2']}, '--textures', 'textures')

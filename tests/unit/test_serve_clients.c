@@ -92,12 +92,15 @@ static void test_forwarded(void **state)
                 {"[2001:db8::1]:443", "2001:db8::1"},
                 {"2001:db8::1", "2001:db8::1"},
                 {"[2001:db8::1]", "2001:db8::1"},
-                {"192.0.2.1, nonsense", NULL},
-                {"192.0.2.1, nonsense, 127.0.0.1", NULL},
+                {"192.0.2.1, nonsense", "::"},
+                {"192.0.2.1, nonsense, 127.0.0.1", "::"},
+                {"unknown", "::"},
+                {"fe80::1%eth0", "::"},
+                {"\"192.0.2.1\"", "::"},
                 {"10.0.0.1", NULL},
-                {",", NULL},
-                {" ", NULL},
-                {"", NULL},
+                {",", "::"},
+                {" ", "::"},
+                {"", "::"},
                 {NULL, NULL}};
     Trusted trusted = {.count = 0};
     Address client;
@@ -114,7 +117,9 @@ static void test_forwarded(void **state)
     char *list = malloc(60000);
     memset(list, '1', 59999);
     list[59999] = '\0';
-    assert_int_equal(trusted_client(&trusted, list, &client), -1);
+    assert_int_equal(trusted_client(&trusted, list, &client), 0);
+    const Address unknown = address("::");
+    assert_true(address_is_same(&client, &unknown));
     free(list);
 }
 

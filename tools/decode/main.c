@@ -1,6 +1,7 @@
 /* retex-decode: decodes one picture for another process, see libretex/picture/decoder.h. Nobody else has a use for it.
  *
- * Before it looks at the picture it loads what decoding may need, limits itself, and gives up all other rights. */
+ * Before it looks at the picture it loads what decoding may need, limits itself, and gives up all other rights. It also
+ * encodes pixels of that process, which are no stranger's. */
 #include <errno.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #include <retex/parallel.h>
+#include <retex/picture.h>
 
 #include "common/confine.h"
 #include "picture/image_format.h"
@@ -129,6 +131,45 @@ static int answer(int code, const RetexDecoded *decoded)
                           : write_all(image->pixels, samples * sizeof(float));
 }
 
+/* ---- encoding ---- */
+
+static int read_pixels(RetexImage *image)
+{
+    const size_t bytes = 3 * sizeof(float) * (size_t)image->width * (size_t)image->height;
+    for (size_t done = 0; done < bytes;) {
+        const ssize_t got = read(STDIN_FILENO, (char *)image->pixels + done, bytes - done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return retex_fail(&reply.error, RETEX_EIO, "cannot read the pixels");
+        done += (size_t)got;
+    }
+    return RETEX_OK;
+}
+
+static int encode(const RetexDecoderOrder *order)
+{
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    RetexImage image = {0};
+    RetexPicture *picture = NULL;
+    void *data = NULL;
+    size_t bytes = 0;
+    params.quality = order->quality;
+    params.view = order->view;
+    int code = retex_image_alloc(&image, order->width, order->height, 3, &reply.error);
+    if (!code)
+        code = read_pixels(&image);
+    if (!code)
+        code = retex_picture_open_memory(&picture, order->format, image.width, image.height, 3, &params, &reply.error);
+    if (!code)
+        code = retex_picture_image(picture, &image, order->nthreads, &reply.error);
+    if (!code)
+        code = retex_picture_take(&picture, &data, &bytes, &reply.error);
+    reply.code = code;
+    reply.file_bytes = bytes;
+    return write_all(&reply, sizeof reply) || code ? 1 : write_all(data, bytes);
+}
+
 int main(void)
 {
     RetexDecoderOrder order;
@@ -144,6 +185,8 @@ int main(void)
     }
     syscall(SYS_close_range, RETEX_DECODER_ORDERS, ~0u, 0);
     ignore_signals();
+    if (order.decode == RETEX_DECODE_NOT)
+        _exit(encode(&order) ? 1 : 0);
     int code = retex_input_open_descriptor(&input, STDIN_FILENO, order.path, &reply.error);
     if (!code)
         code = prepare(&order, input);

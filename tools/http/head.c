@@ -52,6 +52,8 @@ void head_begin(HeadCheck *check, const char *method, const char *url, const cha
         refuse(check, 400, "the method is not well formed");
     if (strncmp(version, "HTTP/1.", 7) != 0 || has_control(url) || strpbrk(url, " \t"))
         refuse(check, 400, "the first line is not well formed");
+    if (strstr(url, "%00")) /* where a name ends for some programs and not for others */
+        refuse(check, 400, "the URL is not well formed: %00 stands for no character");
     if (!bytes)
         return;
     check->at = version + strlen(version) + 2;

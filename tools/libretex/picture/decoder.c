@@ -16,8 +16,10 @@
 #include <unistd.h>
 
 #include <retex/clock.h>
+#include <retex/picture.h>
 
 #include "base/machine.h"
+#include "base/params.h"
 #include "exr/io.h"
 #include "picture/beside.h"
 #include "picture/image_format.h"
@@ -25,6 +27,7 @@
 enum {
     PROCESSOR_SECONDS = 60,
     MOST_SECONDS = 300,     /* by the clock: a decoder can also wait */
+    ENCODE_SECONDS = 3600,  /* where no budget ends it before */
     LOOK_MILLISECONDS = 20, /* for stops and for memory */
     END_MILLISECONDS = 500, /* between its last byte and its end */
     PIPE_BYTES = 1 << 20,
@@ -98,7 +101,7 @@ static int check_memory(const Decoder *decoder, uint64_t more, RetexError *err)
 
 static int fail_start(const char *path, const char *why, RetexError *err)
 {
-    return retex_fail(err, RETEX_EIO, "%s: no process to decode it: %s", path, why);
+    return retex_fail(err, RETEX_EIO, "%s: no process for it: %s", path, why);
 }
 
 static int find_program(RetexBesidePath path)
@@ -192,15 +195,17 @@ static int spawn(pid_t *pid, const char *program, int picture, int orders, int r
     return code;
 }
 
-static int start(Decoder *decoder, const RetexInput *input, RetexError *err)
+/* picture: a descriptor, or below 0 with errno set; it is closed. */
+static int start(Decoder *decoder, int picture, RetexError *err)
 {
     const RetexDecoderOrder *order = decoder->order;
     RetexBesidePath program;
     int orders[2] = {-1, -1}, replies[2] = {-1, -1}, code = 0;
     _Static_assert(sizeof *order <= 4096, "fits into any pipe");
-    if (!find_program(program))
+    if (!find_program(program)) {
+        close_file(picture);
         return fail_start(order->path, "there is no program retex-decode", err);
-    const int picture = open_picture(input);
+    }
     if (picture < 0 || open_pipe(orders) || open_pipe(replies) ||
         write(orders[1], order, sizeof *order) != (ssize_t)sizeof *order)
         code = errno ? errno : EIO;
@@ -253,7 +258,7 @@ static void stop(Decoder *decoder)
 
 static int fail_late(const Decoder *decoder, RetexError *err)
 {
-    return retex_fail(err, RETEX_ELIMIT, "%s: not decoded within %g s", decoder->order->path, decoder->order->seconds);
+    return retex_fail(err, RETEX_ELIMIT, "%s: not done within %g s", decoder->order->path, decoder->order->seconds);
 }
 
 /* It ended before it had said all. */
@@ -397,7 +402,7 @@ static int run(RetexDecoded *decoded, RetexDecoderReply *reply, const RetexDecod
         .order = order, .budget = budget, .from = -1, .slot = -1, .until = retex_clock_seconds() + MOST_SECONDS};
     int code = retex_budget_check(budget, err);
     if (!code)
-        code = start(&decoder, input, err);
+        code = start(&decoder, open_picture(input), err);
     if (!code)
         code = take_reply(&decoder, reply, err);
     if (!code && !reply->code && !reply->misses_bridge)
@@ -462,5 +467,89 @@ int retex_decoder_run(RetexDecoded *decoded, RetexDecode decode, const RetexInpu
     for (int i = 0; !code && params->warn && i < reply->nwarnings; i++)
         params->warn(params->warn_context, reply->warnings[i]);
     free(reply);
+    return code;
+}
+
+/* ---- encoding ---- */
+
+static int write_pixels(int file, const RetexImage *image)
+{
+    const size_t bytes = 3 * sizeof(float) * (size_t)image->width * (size_t)image->height;
+    for (size_t done = 0; done < bytes;) {
+        const ssize_t written = write(file, (const char *)image->pixels + done, bytes - done);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return -1;
+        done += (size_t)written;
+    }
+    return lseek(file, 0, SEEK_SET) == 0 ? 0 : -1;
+}
+
+/* The pixels as a file in memory; below 0: errno says why there is none. */
+static int open_pixels(const RetexImage *image)
+{
+    const int low = memfd_create("pixels", MFD_CLOEXEC), copy = low < 0 ? -1 : copy_high(low);
+    const int failed = copy >= 0 && write_pixels(copy, image), why = errno;
+    close_file(low);
+    if (failed)
+        close(copy);
+    errno = why;
+    return failed ? -1 : copy;
+}
+
+/* One process: the file that it makes. */
+static int encode(const RetexDecoderOrder *order, const RetexImage *image, const RetexBudget *budget, void **data,
+                  size_t *bytes, RetexError *err)
+{
+    Decoder decoder = {
+        .order = order, .budget = budget, .from = -1, .slot = -1, .until = retex_clock_seconds() + ENCODE_SECONDS};
+    RetexDecoderReply *reply = malloc(sizeof *reply);
+    int code = reply ? start(&decoder, open_pixels(image), err) : retex_fail(err, RETEX_ENOMEM, "not enough memory");
+    if (!code)
+        code = take_reply(&decoder, reply, err);
+    if (!code && reply->code) {
+        code = reply->code;
+        if (err)
+            *err = reply->error;
+    }
+    if (!code && !(*data = malloc(reply->file_bytes)))
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory");
+    if (!code)
+        code = take(&decoder, *data, *bytes = reply->file_bytes, err);
+    stop(&decoder);
+    free(reply);
+    return code;
+}
+
+int retex_picture_encode(const RetexImage *image, const char *format, const RetexWriteParams *given,
+                         const RetexBudget *budget, int nthreads, void **data, size_t *bytes, RetexError *err)
+{
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    RetexDecoderOrder order = {.magic = RETEX_DECODER_MAGIC,
+                               .bytes = sizeof order,
+                               .parent = (int32_t)getpid(),
+                               .decode = RETEX_DECODE_NOT,
+                               .with_bridge = 1,
+                               .nthreads = nthreads,
+                               .seconds = ENCODE_SECONDS,
+                               .width = image->width,
+                               .height = image->height};
+    int code = RETEX_PARAMS_COPY(&params, given, err);
+    *data = NULL, *bytes = 0;
+    if (!code && (image->channels != 3 || params.display || params.colorspace || params.depth))
+        code = retex_fail(err, RETEX_EUNSUPPORTED, "only RGB is encoded by a process of its own, by its view");
+    order.quality = params.quality;
+    snprintf(order.path, sizeof order.path, "picture.%s", format);
+    if (!code && (snprintf(order.format, sizeof order.format, "%s", format) >= (int)sizeof order.format ||
+                  snprintf(order.view, sizeof order.view, "%s", params.view ? params.view : "") >=
+                      (int)sizeof order.view))
+        code = retex_fail(err, RETEX_EINVAL, "the name of a format or view is too long");
+    if (!code)
+        code = encode(&order, image, budget, data, bytes, err);
+    if (!code)
+        return RETEX_OK;
+    free(*data);
+    *data = NULL, *bytes = 0;
     return code;
 }

@@ -1,6 +1,7 @@
 /* The decoder: a small program, retex-decode, that reads one picture in a process of its own. Under safe access all
  * pictures are decoded there: whatever they do to a decoder, this process goes on. It is limited in memory and time,
- * ended when it takes too long, and confined; see tools/decode.
+ * ended when it takes too long, and confined; see tools/decode. It also encodes a picture that must end in time, which
+ * formats of other libraries do not promise.
  *
  * It gets the picture as its standard input, an open file, and an order by a pipe at RETEX_DECODER_ORDERS. To standard
  * output, a pipe, it writes a reply, and then the pixels. Nothing that it writes is trusted. */
@@ -19,7 +20,8 @@ enum { RETEX_DECODER_ORDERS = 3, RETEX_DECODER_WARNINGS = 4 };
 typedef enum RetexDecode {
     RETEX_DECODE_CHECK,  /* whether it can be read */
     RETEX_DECODE_PIXELS, /* floats */
-    RETEX_DECODE_ANY     /* 16-bit integers, or floats where the file has others */
+    RETEX_DECODE_ANY,    /* 16-bit integers, or floats where the file has others */
+    RETEX_DECODE_NOT     /* standard input has floats: they are to be encoded */
 } RetexDecode;
 
 /* Pixels of the one kind or of the other. */
@@ -45,6 +47,8 @@ typedef struct RetexDecoderOrder {
     int32_t has_colorspace;
     char colorspace[256], space_to_load[256]; /* the second: of a file that asked for it */
     char path[1024];                          /* for messages */
+    int32_t width, height, quality;           /* of RETEX_DECODE_NOT: of RGB pixels, and as of RetexWriteParams; */
+    char format[16], view[64];                /* as of retex_picture_open_memory, and of RetexWriteParams */
 } RetexDecoderOrder;
 
 typedef struct RetexDecoderReply {
@@ -56,9 +60,10 @@ typedef struct RetexDecoderReply {
     int32_t nwarnings;
     char warnings[RETEX_DECODER_WARNINGS][1024];
     int32_t is_narrow, width, height; /* of the pixels that follow; 0 x 0 = none do */
+    uint64_t file_bytes;              /* of the encoded picture that follows */
 } RetexDecoderReply;
 
-enum { RETEX_DECODER_MAGIC = 0x52744431 };
+enum { RETEX_DECODER_MAGIC = 0x52744432 };
 
 /* Have an open file decoded in safe access. params are complete; path is for messages. */
 int retex_decoder_run(RetexDecoded *decoded, RetexDecode decode, const RetexInput *input, const char *path,

@@ -126,8 +126,10 @@ int trusted_client(const Trusted *trusted, const char *list, Address *client)
         begin += strspn(begin, " \t");
         while (last > begin && (last[-1] == ' ' || last[-1] == '\t'))
             last--;
-        if (parse_forwarded(client, begin, last > begin ? (size_t)(last - begin) : 0))
-            return -1;
+        if (parse_forwarded(client, begin, last > begin ? (size_t)(last - begin) : 0)) {
+            *client = (Address){{0}};
+            return 0;
+        }
         if (!trusted_has(trusted, client))
             return 0;
     }

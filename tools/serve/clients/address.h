@@ -35,7 +35,8 @@ typedef struct Trusted {
 int trusted_add(Trusted *trusted, const char *text);
 int trusted_has(const Trusted *trusted, const Address *address);
 /* The client by a list of X-Forwarded-For, to which each proxy adds who has asked it: the last one that is no trusted
- * proxy itself. -1 if there is none, or what stands there is no address. */
+ * proxy itself; where no address stands there, one that is ::, the same for all. -1 if there is none, so that a proxy
+ * has asked for itself. */
 int trusted_client(const Trusted *trusted, const char *list, Address *client);
 
 #endif

@@ -133,3 +133,38 @@ const char *keys_check(const Keys *keys, const char *url)
     }
     return is_right ? path : NULL;
 }
+
+/* ---- logs ---- */
+
+/* Put a star in place of each word that is so long; signatures may be spelled by escapes. */
+static void hide_words(char *text, size_t least)
+{
+    char *to = text;
+    for (const char *at = text; *at;) {
+        size_t length = 0;
+        while (isalnum((unsigned char)at[length]) || (at[length] && strchr("-_%+=", at[length])))
+            length++;
+        if (length >= least) {
+            *to++ = '*';
+        } else {
+            length += length == 0;
+            memmove(to, at, length);
+            to += length;
+        }
+        at += length;
+    }
+    *to = '\0';
+}
+
+const char *keys_hide(char *url)
+{
+    static const char *const begins[] = {"/v1", "/iiif/", "/metrics", "/health"};
+    enum { PART = 12 }; /* of a signature, cut by what does not belong into one */
+    char *path = NULL;
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++) {
+        char *found = strstr(url, begins[i]);
+        path = found && (!path || found < path) ? found : path;
+    }
+    hide_words(path ? path : url, path ? SIGNATURE_LENGTH : PART);
+    return path ? path : url;
+}

@@ -35,4 +35,8 @@ const char *keys_sign(const Keys *keys, const char *path, char text[SIGNATURE_LE
  * where it is not signed by one of them. The time it takes does not depend on how much of a signature is right. */
 const char *keys_check(const Keys *keys, const char *url);
 
+/* What a log may have of a URL that keys_check refuses, which is changed: from where its path seems to begin, without
+ * what may be a signature, or part of one. */
+const char *keys_hide(char *url);
+
 #endif

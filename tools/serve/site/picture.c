@@ -1,7 +1,8 @@
-/* See picture.h. A whole picture is encoded strip by strip while it is made. A part, or a
- * smaller picture, is made first, then it is mirrored, turned and encoded. */
+/* See picture.h. A whole picture is encoded strip by strip while it is made. A part, a
+ * smaller picture, or one whose encoder may take long, is made first, then it is mirrored, turned and encoded. */
 #include "serve/site/picture.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,18 +10,37 @@
 #include <retex/clock.h>
 #include <retex/color.h>
 
-static int check_time(double deadline, RetexError *err)
+static int is_late(RetexError *err)
 {
-    if (retex_clock_seconds() < deadline)
-        return RETEX_OK;
     return retex_fail(err, RETEX_ELIMIT, "the picture takes longer than a request may");
 }
 
-static int open_picture(RetexPicture **picture, const PicturePlan *plan, int width, int height, RetexError *err)
+static int check_time(double deadline, RetexError *err)
+{
+    return retex_clock_seconds() < deadline ? RETEX_OK : is_late(err);
+}
+
+/* JPEG and PNG are encoded strip by strip, and time is looked at between them. Encoders of other formats go on until
+ * they are done: of AVIF that is seconds a megapixel, so that larger pictures are encoded by a process that can be
+ * ended. */
+enum { QUICK_PIXELS = 1 << 17 };
+
+static int is_quick(ServeFormat format, int width, int height)
+{
+    return format == SERVE_JPEG || format == SERVE_PNG || (int64_t)width * height <= QUICK_PIXELS;
+}
+
+static RetexWriteParams write_params(const PicturePlan *plan)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
     params.quality = plan->quality;
     params.view = plan->view;
+    return params;
+}
+
+static int open_picture(RetexPicture **picture, const PicturePlan *plan, int width, int height, RetexError *err)
+{
+    const RetexWriteParams params = write_params(plan);
     return retex_picture_open_memory(picture, serve_format_extension(plan->format), width, height, 3, &params, err);
 }
 
@@ -50,7 +70,7 @@ static int write_rows(void *context, int y0, int y1, const float *rows, RetexErr
 static int is_whole(const PicturePlan *plan)
 {
     const RetexSetInfo info = retex_set_info(plan->set);
-    return retex_cut_is_whole(&plan->place, info.width, info.height) && !plan->quarter_turns && !plan->mirror &&
+    return is_quick(plan->format, info.width, info.height) && retex_cut_is_whole(&plan->place, info.width, info.height) && !plan->quarter_turns && !plan->mirror &&
            !plan->gray;
 }
 
@@ -142,10 +162,36 @@ static int turn(RetexImage *image, int quarters, RetexError *err)
     return RETEX_OK;
 }
 
+static int encode_quickly(const PicturePlan *plan, const RetexImage *image, int nthreads, void **data, size_t *bytes,
+                          RetexError *err)
+{
+    RetexPicture *picture = NULL;
+    int code = open_picture(&picture, plan, image->width, image->height, err);
+    if (!code)
+        code = retex_picture_image(picture, image, nthreads, err);
+    return take_picture(&picture, code, data, bytes, err);
+}
+
+/* Until the deadline. */
+static int encode_in_time(const PicturePlan *plan, const RetexImage *image, int nthreads, void **data, size_t *bytes,
+                          RetexError *err)
+{
+    const RetexWriteParams params = write_params(plan);
+    RetexBudget *budget = NULL;
+    int code = check_time(plan->deadline, err);
+    if (!code)
+        code = retex_budget_create(&budget, err);
+    if (code)
+        return code;
+    retex_budget_set_seconds(budget, fmax(plan->deadline - retex_clock_seconds(), 1e-3)); /* 0 is no limit */
+    code = retex_picture_encode(image, serve_format_extension(plan->format), &params, budget, nthreads, data, bytes, err);
+    retex_budget_close(&budget);
+    return code ? (retex_clock_seconds() < plan->deadline ? code : is_late(err)) : RETEX_OK;
+}
+
 static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
 {
     RetexImage image = {0};
-    RetexPicture *picture = NULL;
     int code = make_scaled(&image, plan, nthreads, err);
     if (!code && plan->gray)
         make_gray(&image);
@@ -154,10 +200,9 @@ static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t 
     if (!code)
         code = turn(&image, plan->quarter_turns, err);
     if (!code)
-        code = open_picture(&picture, plan, image.width, image.height, err);
-    if (!code)
-        code = retex_picture_image(picture, &image, nthreads, err);
-    code = take_picture(&picture, code, data, bytes, err);
+        code = is_quick(plan->format, image.width, image.height)
+                   ? encode_quickly(plan, &image, nthreads, data, bytes, err)
+                   : encode_in_time(plan, &image, nthreads, data, bytes, err);
     retex_image_free(&image);
     return code;
 }

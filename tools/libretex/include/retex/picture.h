@@ -3,6 +3,7 @@
 #ifndef RETEX_PICTURE_H
 #define RETEX_PICTURE_H
 
+#include <retex/budget.h>
 #include <retex/image_file.h>
 
 #pragma GCC visibility push(default)
@@ -42,6 +43,13 @@ int retex_picture_close(RetexPicture **picture, int keep, RetexError *err);
 int retex_picture_open_memory(RetexPicture **picture, const char *format, int width, int height, int channels,
                               const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
 int retex_picture_take(RetexPicture **picture, void **data, size_t *bytes, RetexError *err);
+
+/* The same bytes of an image of 3 channels, made by a process of its own, which is ended when the budget's time is up or
+ * it is stopped: RETEX_ELIMIT, as of retex_budget_check. Encoders of other libraries, of AVIF, JPEG XL and WebP, cannot be
+ * ended otherwise. Of params, quality and view count; others are RETEX_EUNSUPPORTED. It takes .1 to .3 s to start. */
+int retex_picture_encode(const RetexImage *image, const char *format,
+                         const RetexWriteParams *params /* NULL = defaults */, const RetexBudget *budget,
+                         int nthreads, void **data, size_t *bytes, RetexError *err);
 
 #ifdef __cplusplus
 }
