@@ -61,7 +61,7 @@ async function withServer(body) {
 }
 
 test("a job that ends before the stream is open", () => withServer(async (app, get, open) => {
-  const job = app.run("retex-render", ["room.pov", "--list-targets"], "a job");
+  const job = app.run("retex-render", ["--list-lamps", "--", "room.pov"], "a job");
   for (let jobs = []; !jobs.some((j) => j.state === "done"); jobs = await (await get("api/jobs")).json()) await pause(20);
   open();
   same((await within(job, "the end of the job")).state, "done");
