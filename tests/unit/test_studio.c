@@ -423,6 +423,36 @@ static void test_projects(void **state)
     json_decref(project);
 }
 
+/* Whatever bytes a project has, the sets of one that is taken lie below the model's folder. */
+static void test_broken_projects(void **state)
+{
+    static const char signs[] = "\"{}[]:,.-/\\01e\x7f\xc3\n";
+    json_t *root = project_with(NULL, NULL);
+    char *text = json_dumps(root, 0), *broken = strdup(text);
+    const size_t bytes = strlen(text);
+    uint32_t random = 1;
+    int taken = 0;
+    (void)state;
+    for (int k = 0; k < 20000; k++) {
+        memcpy(broken, text, bytes);
+        for (int n = 0; n <= k % 3; n++)
+            broken[(size_t)(test_random(&random) * (double)bytes)] =
+                signs[(size_t)(test_random(&random) * (sizeof signs - 1))];
+        json_t *project = project_parse(broken, bytes, &model, NULL);
+        const char *set =
+            json_string_value(json_object_get(json_array_get(json_object_get(project, "renders"), 0), "set"));
+        if (set && (strncmp(set, "room.pov.studio/", 16) != 0 || strstr(set, "..") || strstr(set, "/-") ||
+                    strpbrk(set, "\n\x7f")))
+            fail_msg("%s", set);
+        taken += project != NULL;
+        json_decref(project);
+    }
+    assert_true(taken > 1000 && taken < 15000);
+    free(broken);
+    free(text);
+    json_decref(root);
+}
+
 /* ---- connections without the token ---- */
 
 /* Whether the other end of a pair of sockets has been ended. */
@@ -627,6 +657,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_what_is_no_job, open_model, close_model),
         cmocka_unit_test_setup_teardown(test_outputs, open_model, close_model),
         cmocka_unit_test_setup_teardown(test_projects, open_model, close_model),
+        cmocka_unit_test_setup_teardown(test_broken_projects, open_model, close_model),
         cmocka_unit_test(test_strangers),
         cmocka_unit_test(test_names),
         cmocka_unit_test_setup_teardown(test_received, enter_folder, leave_folder),
