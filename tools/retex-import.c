@@ -29,7 +29,10 @@
 #include "import/import.h"
 #include "common/watchdog.h"
 
-enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
+enum { MOST_FOLDERS = 32, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
+
+/* Where the user says nothing. Models of millions of triangles take a tenth of it. */
+enum { READ_SECONDS = 300, READ_GIGABYTES = 8 };
 
 typedef struct Request {
     ImportOptions import;
@@ -106,8 +109,8 @@ static const CliOption options[] = {
     {0},
 };
 
-/* The folder that is being filled, and the same, open: whoever may write beside it may put a link in its place. Its name
- * is read by the watchdog's thread. */
+/* The folder that is being filled, and the same, open: whoever may write beside it may put a link in its place. The
+ * name is read by the watchdog's thread. */
 static char unfinished[PATH_MAX];
 static int unfinished_folder = -1;
 static _Atomic pid_t child;
@@ -205,8 +208,8 @@ static int explain(const Cli *cli, const char *model, int status, RetexError *er
 {
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (number == SIGXCPU)
-        return retex_fail(err, RETEX_ELIMIT, "%s: not read within %g s of processor time", model,
-                          cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS);
+        return retex_fail(err, RETEX_ELIMIT, "%s: not read within %g s of processor time; --max-time allows more",
+                          model, cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS);
     if (number == SIGKILL)
         return retex_fail(err, RETEX_ELIMIT, "%s: the process that reads it was killed", model);
     return retex_fail(err, RETEX_EFORMAT,
@@ -480,6 +483,9 @@ int main(int argc, char **argv)
     import->accept_damaged = cli.access.accept_damaged;
     import->max_pixels = cli.limits.pixels;
     import->budget = cli.budget;
+    const uint64_t most = retex_budget_memory(cli.budget), usual = (uint64_t)READ_GIGABYTES << 30;
+    if (!cli.limits.memory && (!most || most > usual))
+        retex_budget_set_memory(cli.budget, usual);
     if (import->list_variants)
         return list_variants(&cli, import);
     import_to(&cli, import, request.force);

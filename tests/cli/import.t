@@ -305,7 +305,7 @@ $ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj;
 ! retex-import: error: empty.obj: OBJ-file is too small.
 ! retex-import: error: noise.fbx: FBX-Parser unexpected end of file
 ! retex-import: error: huge.gltf: GLTF: Accessor with offset/length (0/4000000000) is out of range.
-! retex-import: error: cycle.gltf: GLTF: Object at index 0 in array "nodes" has recursive reference to itself
+! retex-import: error: cycle.gltf: its nodes lie within one another more than 4000 deep, or within themselves
 ! retex-import: error: faces.obj: OBJ: vertex index out of range
 ! retex-import: error: far.obj: its surfaces reach farther than 1e+15
 $ ls -d damaged*

@@ -45,7 +45,7 @@ $ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.po
 $ for m in circle all; do retex-import -q hidden_$m.gltf -o odd; echo $?; done
 > 2
 > 2
-! retex-import: error: hidden_circle.gltf: GLTF: Object at index 3 in array "nodes" has recursive reference to itself
+! retex-import: error: hidden_circle.gltf: its nodes lie within one another more than 4000 deep, or within themselves
 ! retex-import: error: hidden_all.gltf: there are no surfaces in it
 
 # Points and lines are told, also where there is nothing else.

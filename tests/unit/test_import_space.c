@@ -330,6 +330,98 @@ static void a_view_is_of_the_furniture(void **unused)
     space_free(space);
 }
 
+/* ---- much at one place ---- */
+
+/* A line that is as likely as any other through a ball. */
+static void random_line(double radius, double from[3], double direction[3])
+{
+    const double y = between(-1, 1), a = between(0, 2 * PI), r = sqrt(1 - y * y);
+    const double out = radius * sqrt(between(0, 1)), turn = between(0, 2 * PI);
+    const double u[3] = {-sin(a), 0, cos(a)}, d[3] = {r * cos(a), y, r * sin(a)};
+    const double v[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
+    for (int k = 0; k < 3; k++) {
+        direction[k] = d[k];
+        from[k] = out * (cos(turn) * u[k] + sin(turn) * v[k]);
+    }
+}
+
+static int line_meets(const double from[3], const double direction[3], const double low[3], const double high[3])
+{
+    double enters = -INFINITY, leaves = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double a = (low[k] - from[k]) / direction[k], b = (high[k] - from[k]) / direction[k];
+        enters = fmax(enters, fmin(a, b)), leaves = fmin(leaves, fmax(a, b));
+    }
+    return enters <= leaves;
+}
+
+static void the_load_is_what_lines_meet(void **unused)
+{
+    (void)unused;
+    enum { LINES = 20000 };
+    SpaceTriangles t = random_triangles();
+    const double low[3] = {-6, -2, -5}, high[3] = {3, 4, 6};
+    double(*boxes)[2][3] = calloc(t.ntriangles, sizeof *boxes);
+    long through = 0, met = 0;
+    assert_non_null(boxes);
+    for (size_t i = 0; i < t.ntriangles; i++)
+        for (int k = 0; k < 3; k++) {
+            boxes[i][0][k] = INFINITY, boxes[i][1][k] = -INFINITY;
+            for (int j = 0; j < 3; j++) {
+                boxes[i][0][k] = fmin(boxes[i][0][k], (double)t.vertices[t.corners[i][j]][k]);
+                boxes[i][1][k] = fmax(boxes[i][1][k], (double)t.vertices[t.corners[i][j]][k]);
+            }
+            boxes[i][0][k] = fmax(boxes[i][0][k], low[k]), boxes[i][1][k] = fmin(boxes[i][1][k], high[k]);
+        }
+    for (int line = 0; line < LINES; line++) {
+        double from[3], direction[3];
+        random_line(12, from, direction);
+        if (!line_meets(from, direction, low, high))
+            continue;
+        through++;
+        for (size_t i = 0; i < t.ntriangles; i++) {
+            const double(*b)[3] = (const double(*)[3])boxes[i];
+            met += b[0][0] <= b[1][0] && b[0][1] <= b[1][1] && b[0][2] <= b[1][2] &&
+                   line_meets(from, direction, b[0], b[1]);
+        }
+    }
+    const double expected = (double)met / (double)through, load = space_load(&t, low, high);
+    print_message("# %.3f, of lines %.3f\n", load, expected);
+    assert_true(fabs(load - expected) < 0.02 * expected);
+    free(boxes);
+    free(t.vertices), free(t.corners), free(t.tags);
+}
+
+static void crowds_are_not_asked(void **unused)
+{
+    (void)unused;
+    const double low[3] = {0, 0, 0}, high[3] = {5, 2.6, 4}, far_low[3] = {36, 0, 36}, far_high[3] = {40, 2.6, 40};
+    const double floor[4][3] = {{0, 0, 0}, {0, 0, 4}, {5, 0, 4}, {5, 0, 0}};
+    for (int crowded = 0; crowded < 2; crowded++) {
+        RetexError err = {0};
+        Space *space;
+        Room room;
+        /* of each pair of triangles in one plane, both have the bounds of all */
+        SpaceTriangles flat = make(4096, 4096);
+        for (int i = 0; i < (crowded ? 251 : 249); i++)
+            add_quad(&flat, floor, 0);
+        assert_int_equal(space_create(&space, &flat, &err), crowded ? RETEX_ELIMIT : RETEX_OK);
+        space_free(space);
+        /* a little room in a large model, with many floors */
+        SpaceTriangles t = make(16384, 16384);
+        add_box(&t, low, high, 1, 0, 0);
+        add_box(&t, far_low, far_high, 0, 0, 6);
+        for (int i = 0; i < (crowded ? 3000 : 1); i++)
+            add_quad(&t, floor, 12);
+        space = create(&t);
+        assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+        assert_int_equal(room.is_found, !crowded);
+        assert_int_equal(room.is_closed, !crowded);
+        room_free(&room);
+        space_free(space);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,6 +430,8 @@ int main(void)
         cmocka_unit_test(a_box_is_measured),
         cmocka_unit_test(a_counter_is_furniture),
         cmocka_unit_test(a_solid_is_no_room),
+        cmocka_unit_test(the_load_is_what_lines_meet),
+        cmocka_unit_test(crowds_are_not_asked),
         cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),
         cmocka_unit_test(a_view_is_of_the_furniture),
     };

@@ -100,13 +100,14 @@ static const int computing[] = {
 };
 
 /* Calls for files by name. What of them changes files is restricted to a folder by Landlock. What it knows nothing of
- * is left out: modes, owners, times and attributes, locks, and ioctl(2), which types into the user's terminal. */
+ * is left out: modes, owners, times and attributes, locks, and ioctl(2), which types into the user's terminal.
+ * Files in memory are for OpenImageIO, which writes pictures to files alone: see MemoryFile in tools/bridge/write.cpp. */
 static const int using_files[] = {
     __NR_openat,     __NR_newfstatat, __NR_statx,     __NR_readlinkat, __NR_faccessat,    __NR_faccessat2,
     __NR_getdents64, __NR_getcwd,     __NR_statfs,    __NR_fstatfs,    __NR_fadvise64,    __NR_write,
     __NR_writev,     __NR_pwrite64,   __NR_ftruncate, __NR_fsync,      __NR_fdatasync,    __NR_unlinkat,
-    __NR_renameat,   __NR_renameat2,  __NR_mkdirat,   __NR_linkat,     __NR_memfd_create, /* OpenImageIO writes pictures to files alone: see MemoryFile in tools/bridge/write.cpp */
-    __NR_getuid,     __NR_geteuid,    __NR_getgid,    __NR_getegid,    __NR_sysinfo,
+    __NR_renameat,   __NR_renameat2,  __NR_mkdirat,   __NR_linkat,     __NR_memfd_create, __NR_getuid,
+    __NR_geteuid,    __NR_getgid,     __NR_getegid,   __NR_sysinfo,
 #ifdef __NR_open /* those of old */
     __NR_open,       __NR_stat,       __NR_lstat,     __NR_readlink,   __NR_access,       __NR_unlink,
     __NR_rename,     __NR_mkdir,      __NR_rmdir,     __NR_link,

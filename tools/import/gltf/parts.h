@@ -29,5 +29,7 @@ void gltf_note_images(Import *import, const json_t *json);
 
 /* Why the file cannot be read, which may not refer to more than it has; or nothing. */
 void gltf_check_indices(const json_t *json, char why[GLTF_REFUSED_SIZE]);
+/* The same, of a file that makes more of its bytes than a scene needs. */
+void gltf_check_sizes(const json_t *json, char why[GLTF_REFUSED_SIZE]);
 
 #endif

@@ -215,6 +215,7 @@ static int change(GltfFloats *f)
     Import *import = f->buffers.import;
     int any = 0;
     gltf_check_indices(f->json, f->refused);
+    gltf_check_sizes(f->json, f->refused);
     if (!f->refused[0])
         any |= decode_all(f);
     if (!f->refused[0])
@@ -249,6 +250,8 @@ static FILE *write_prepared(Import *import, FILE *in)
         if (!out)
             snprintf(f.refused, sizeof f.refused, GLTF_NO_MEMORY);
     }
+    if (!text.json && text.why[0]) /* such as by depth, which Assimp does not count */
+        snprintf(f.refused, sizeof f.refused, "its JSON text: %.200s", text.why);
     memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     gltf_buffers_free(&f.buffers);
     free(f.floats.bytes);

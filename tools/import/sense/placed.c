@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "import/base/mesh.h"
+#include "import/base/tell.h"
 #include "import/base/world.h"
 #include "import/sense/sense.h"
 #include "import/space/space.h"
@@ -98,5 +99,9 @@ int placed_collect(Import *import, Sense *sense, RetexError *err)
     }
     sense->materials = placed.materials;
     sense->nobjects = (uint32_t)placed.nobjects;
-    return space_create(&sense->space, t, err);
+    const int code = space_create(&sense->space, t, err);
+    if (code != RETEX_ELIMIT)
+        return code;
+    import_tell(import, IMPORT_INFO, "so many triangles lie at one place that no room is looked for");
+    return RETEX_OK;
 }

@@ -468,6 +468,9 @@ static int check_metre(Room *room, int is_sure, RetexError *err)
 static int find_room(Room *room, double metre, int is_sure, RetexError *err)
 {
     room->metre = metre;
+    room->is_found = 0;
+    if (space_load(space_triangles(room->space), room->low, room->high) > SPACE_MOST_LOAD)
+        return RETEX_OK;
     int code = make_plan(room, err);
     if (code || !room->is_found)
         return code;

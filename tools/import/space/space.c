@@ -88,7 +88,9 @@ int space_create(Space **out, SpaceTriangles *triangles, RetexError *err)
     }
     if (!code) {
         find_bounds(space);
-        code = add_geometry(space, err);
+        code = space_load(&space->triangles, space->low, space->high) > SPACE_MOST_LOAD
+                   ? retex_fail(err, RETEX_ELIMIT, "too many triangles lie at one place")
+                   : add_geometry(space, err);
     }
     if (code)
         space_free(space);
@@ -109,6 +111,33 @@ void space_free(Space *space)
     free(space->triangles.corners);
     free(space->triangles.tags);
     free(space);
+}
+
+/* Half of its surface. */
+static double half_surface(const double low[3], const double high[3])
+{
+    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x * y + y * z + z * x;
+}
+
+double space_load(const SpaceTriangles *triangles, const double low[3], const double high[3])
+{
+    const double whole = half_surface(low, high);
+    double sum = 0;
+    for (size_t i = 0; i < triangles->ntriangles; i++) {
+        const uint32_t *corner = triangles->corners[i];
+        double from[3], to[3];
+        int is_within = 1;
+        for (int k = 0; k < 3; k++) {
+            const float *a = triangles->vertices[corner[0]], *b = triangles->vertices[corner[1]],
+                        *c = triangles->vertices[corner[2]];
+            from[k] = fmax(low[k], (double)fminf(a[k], fminf(b[k], c[k])));
+            to[k] = fmin(high[k], (double)fmaxf(a[k], fmaxf(b[k], c[k])));
+            is_within &= from[k] <= to[k];
+        }
+        sum += is_within ? half_surface(from, to) : 0;
+    }
+    return whole > 0 ? sum / whole : 0;
 }
 
 void space_bounds(const Space *space, double low[3], double high[3])

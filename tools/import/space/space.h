@@ -25,9 +25,16 @@ typedef struct SpaceHit {
 
 typedef struct Space Space;
 
-/* Takes the arrays, which malloc has made, whether it succeeds or not. */
+/* Takes the arrays, which malloc has made, whether it succeeds or not. Fails with RETEX_ELIMIT where space_load is more
+ * than SPACE_MOST_LOAD. */
 int space_create(Space **space, SpaceTriangles *triangles, RetexError *err);
 void space_free(Space *space);
+/* How many triangles a ray through a box has to be tried with, in the mean: the sum of the surfaces of their bounds, as
+ * far as they are within the box, by that of the box. So many bounds does a random line through a convex body meet; it
+ * grows with all that lies at one place, whatever its corners are. Models of rooms and things have less than 50. Beyond
+ * the most, some million rays would take minutes, and nothing is asked of a model. */
+#define SPACE_MOST_LOAD 500.0
+double space_load(const SpaceTriangles *triangles, const double low[3], const double high[3]);
 void space_bounds(const Space *space, double low[3], double high[3]);
 const SpaceTriangles *space_triangles(const Space *space);
 /* The nearest hit with tmin < t < tmax. Returns 0 if there is none. */
