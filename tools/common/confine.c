@@ -101,7 +101,7 @@ static const int computing[] = {
 
 /* Calls for files by name. What of them changes files is restricted to a folder by Landlock. What it knows nothing of
  * is left out: modes, owners, times and attributes, locks, and ioctl(2), which types into the user's terminal.
- * Files in memory are for OpenImageIO, which writes pictures to files alone: see MemoryFile in tools/bridge/write.cpp. */
+ * Files in memory are for OpenImageIO, which writes pictures to files alone: see MemoryFile in bridge/write.cpp. */
 static const int using_files[] = {
     __NR_openat,     __NR_newfstatat, __NR_statx,     __NR_readlinkat, __NR_faccessat,    __NR_faccessat2,
     __NR_getdents64, __NR_getcwd,     __NR_statfs,    __NR_fstatfs,    __NR_fadvise64,    __NR_write,
