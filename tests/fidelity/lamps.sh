@@ -107,6 +107,25 @@ for edit in '' "$floor" "$both"; do
     result $((!$?)) "no lamp is changed: the same bytes, ${edit:-originals}"
 done
 
+# The first step of a slider changes next to nothing, whatever is edited, in a set and in a pack: a ten thousandth of the
+# light is 80 dB.
+retex-pack -q "$work/set.exr" -o "$work/set.retex"
+for edit in '' "$floor" "$both"; do
+    textures=
+    for statement in $edit; do textures="$textures --texture $statement"; done
+    for set in exr retex; do
+        # shellcheck disable=SC2086
+        retex-combine -q "$work/set.$set" $textures -o "$work/before.exr"
+        for lamp in Sun=.9999 Bulb=1.0001 rest=.9999; do
+            # shellcheck disable=SC2086
+            retex-combine -q "$work/set.$set" $textures --light $lamp -o "$work/step.exr"
+            psnr=$(figure "$work/step.exr" "$work/before.exr" psnr)
+            echo "# $set, $lamp, ${edit:-originals}: $psnr dB"
+            result "$(at_least "$psnr" 70)" "$set: a first step to $lamp, ${edit:-originals}"
+        done
+    done
+done
+
 # Sixteen lamps. With two targets they keep nearly all that few lamps keep. With four, or the set would have more parts
 # than readers take, their light has one further hit in all combinations, and the original colours from the third on.
 many() { # TARGETS OPTION...

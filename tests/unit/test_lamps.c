@@ -45,7 +45,7 @@ static double factor_value(const RetexSet *set, RetexFactor factor, const float 
     return weights > 0 ? sum / weights : 0;
 }
 
-/* The sum of the terms of lamps, or of all others. */
+/* The sum of the terms of lamps, or of all others, by terms apart. */
 static double formula(const RetexSet *set, int lamps, const float *values, size_t i)
 {
     double sum = 0;
@@ -87,6 +87,46 @@ static void lamps_stand_for_all_light_where_one_is_changed(void **state)
         expect_formula(set, 1, dark, dark);
         retex_set_close(&set);
     }
+}
+
+/* As much of all light as the lamps have in common, by channel, and of each what it has beyond: where the light of lamps
+ * does not add up to all light, as in a pack, or all light has corrections. Kept values are 1 0.5 2, and else 1. */
+static void light_that_lamps_have_in_common_is_that_of_all(void **state)
+{
+    static const float given[][9] = {{0.9f, 0.45f, 1.8f, 1, 1, 1, 1, 1, 1},
+                                     {0.5f, 0.25f, 1, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f},
+                                     {2, 0.5f, 2, 1, 1, 3, 1, 1, 1},
+                                     {2, 0.1f, 3, 0.7f, 0.3f, 2, 4, 0.2f, 0}};
+    static const float kept[] = {1, 0.5f, 2, 1, 1, 1, 1, 1, 1};
+    (void)state;
+    for (int footprints = 0; footprints < 2; footprints++)
+        for (int k = 0; k < 4; k++) {
+            RetexSet *set = lamp_set(footprints, 0);
+            RetexCombineParams params = RETEX_COMBINE_INIT;
+            RetexImage made = {0};
+            RetexError err = {0};
+            float beyond[9];
+            double common[3];
+            for (int t = 0; t < set->nterms; t++) /* the light of the second lamp has been lost in part */
+                for (size_t i = 0; i < VALUES && retex_set_term_lamp(set, &set->terms[t]) == 1; i++)
+                    set->parts[set->terms[t].radiance].image.pixels[i] *= 0.8f;
+            for (int c = 0; c < 3; c++) {
+                common[c] = 1e9;
+                for (int l = 0; l < LAMPS; l++)
+                    common[c] = fmin(common[c], (double)given[k][3 * l + c] / (double)kept[3 * l + c]);
+                for (int l = 0; l < LAMPS; l++)
+                    beyond[3 * l + c] = (float)((double)given[k][3 * l + c] - common[c] * (double)kept[3 * l + c]);
+            }
+            params.parameters = given[k];
+            test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+            for (size_t i = 0; i < VALUES; i++) {
+                const double want = common[i % 3] * formula(set, 0, kept, i) + formula(set, 1, beyond, i);
+                if (fabs((double)made.pixels[i] - want) > 1e-5 * fabs(want) + 1e-6)
+                    fail_msg("case %d: value %zu is %g, not %g", k, i, (double)made.pixels[i], want);
+            }
+            retex_image_free(&made);
+            retex_set_close(&set);
+        }
 }
 
 /* A lamp that is off is not so in the other terms. */
@@ -245,6 +285,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_stand_for_all_light_where_one_is_changed),
+        cmocka_unit_test(light_that_lamps_have_in_common_is_that_of_all),
         cmocka_unit_test(a_lamp_that_is_off_is_changed_as_rendered),
         cmocka_unit_test(files_keep_what_lamps_are),
         cmocka_unit_test(each_lamp_has_signals_of_its_own),

@@ -78,7 +78,7 @@ static void test_jpeg_kernels_agree(void **state)
     static int16_t coefficients[64 * BLOCKS];
     static float steps[64], samples[2][8 * WIDTH], values[2][8 * MOST];
     static float share[RETEX_PACK_LEVEL_ENTRIES + 2];
-    const RetexPackLevels levels = {.scale = 3.7f, .white = 1.3f, .share = share};
+    const RetexPackLevels levels = {.scale = 3.7f, .white = {1.3f, 0.8f, 2.1f}, .share = share};
     uint32_t seed = 7;
     for (int i = 0; i < RETEX_PACK_LEVEL_ENTRIES + 2; i++)
         share[i] = (float)(i * i) / 1000;

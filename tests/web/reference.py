@@ -440,31 +440,36 @@ class Room:
         """first: textures where a target is a path's first hit; gates: of targets, for light of other first hits."""
         room, (width, height) = self.room, self.size
         parameters = room.get("parameters", [])
-        lamps = room.get("lamps")
-        if lamps and all((self.values[p["name"]] == np.array(p["kept"])).all() for p in parameters):
-            lamps = None
-        terms, tiles, source = (lamps["terms"], self.lamp_tiles, lamps) if lamps else (room["terms"], self.tiles, room["reduced"])
-        finest = lamps["finest"] if lamps else room["finest"]
-        small = -(-width // finest), -(-height // finest)
+        values, common = [self.values[p["name"]] for p in parameters], np.ones(3)
+        if "lamps" in room:  # what all lamps have in common comes with all light
+            kept = [np.array(p["kept"]) for p in parameters]
+            times = np.array([np.where(k > 0, v / np.where(k > 0, k, 1), np.inf) for v, k in zip(values, kept)])
+            common = np.where(np.isinf(times.min(axis=0)), 1, times.min(axis=0))
+            values = [np.where(t <= common, 0, v - common * k) for t, v, k in zip(times, values, kept)]
+        both = [(room["terms"], self.tiles, room["reduced"], room["finest"], None)]
+        if np.any(values) and "lamps" in room:
+            both.append((room["lamps"]["terms"], self.lamp_tiles, room["lamps"], room["lamps"]["finest"], values))
         mixtures = [self.mixture(i, first if first and self.first_hit(i) >= 0 else textures) for i in range(len(room["mixtures"]))]
         scale = [room["classes"][m[0][0]]["scale"] for m in room["mixtures"]]
         out = np.zeros((height, width, 3))
         for g, group in enumerate(room["groups"]):
-            factor = np.zeros((small[1], small[0], 3))
-            for term in terms:
-                if term["group"] != g:
-                    continue
-                product = np.ones((small[1], small[0], 3))
-                if lamps:
-                    product = product * self.values[parameters[term["parameter"]]["name"]]
-                if term["gain"] >= 0:
-                    product = product * enlarge(tiles[term["gain"]], source["tiles"][term["gain"]]["scale"] // finest, *small)
-                for m in term["factors"]:
-                    product = product * enlarge(mixtures[m], scale[m] // finest, *small)
-                factor = factor + product
+            whole = 0
+            for terms, tiles, source, finest, of_lamps in both:
+                small = -(-width // finest), -(-height // finest)
+                factor = np.zeros((small[1], small[0], 3))
+                for term in terms:
+                    if term["group"] != g:
+                        continue
+                    product = np.ones((small[1], small[0], 3)) * (of_lamps[term["parameter"]] if of_lamps else common)
+                    if term["gain"] >= 0:
+                        product = product * enlarge(tiles[term["gain"]], source["tiles"][term["gain"]]["scale"] // finest, *small)
+                    for m in term["factors"]:
+                        product = product * enlarge(mixtures[m], scale[m] // finest, *small)
+                    factor = factor + product
+                whole = whole + enlarge(factor, finest, width, height)
             for p in group.get("parameters", []):
-                factor = factor * self.values[parameters[p]["name"]]
-            light = self.lights[group["light"]] * enlarge(factor, finest, width, height)
+                whole = whole * self.values[parameters[p]["name"]]
+            light = self.lights[group["light"]] * whole
             for t, gate in (gates or {}).items():
                 if self.first_hit_of(g) != t:
                     light = light * gate[:, :, None]

@@ -189,7 +189,7 @@ test("shares of lamps are enlarged bilinearly, constant beyond the outermost cen
   for (const [row, lamp] of [[1, 0], [2, 1]]) {
     terms.put(0, 0, row, 2, 1, [x0, y0, width, height, times, 1.5, 255, lamp], 4, (v) => v);
   }
-  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1, end: 3, colors: [[2, 3, 4], [10, 20, 30]] });
+  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1, end: 3, group: -1, colors: [[2, 3, 4], [10, 20, 30]] });
   const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4), tent = (a, b) => Math.max(0, 1 - Math.abs(a - b));
   for (let y = 0; y < height * times; y++)
     for (let x = 0; x < width * times; x++) {
@@ -202,6 +202,13 @@ test("shares of lamps are enlarged bilinearly, constant beyond the outermost cen
     }
 });
 
+test("all light counts as much as all lamps have in common, a lamp what it has beyond", () => {
+  const { shareLight } = player(), room = { parameters: [{ kept: [1, 2, 4] }, { kept: [3, 0, 1] }] };
+  same(shareLight(room, [[1, 2, 4], [3, 0, 1]]), { common: [1, 1, 1], beyond: [[0, 0, 0], [0, 0, 0]] });
+  same(shareLight(room, [[0.5, 4, 4], [3, 7, 0]]), { common: [0.5, 2, 0], beyond: [[0, 0, 4], [1.5, 7, 0]] });
+  same(shareLight({ parameters: [{ kept: [0, 1, 1] }] }, [[5, 3, 0]]), { common: [1, 3, 0], beyond: [[5, 0, 0]] });
+});
+
 test("where all lamps are as rendered, all light is drawn, to the bit, with or without their file", () => {
   const pov = LIT.replace("light_source { Spare }", "");
   writeFileSync(`${folder}/kept.pov`, pov);
@@ -211,9 +218,16 @@ test("where all lamps are as rendered, all light is drawn, to the bit, with or w
   const floor = { Floor: { image: [0.1, 0.5, 0.2] } }, kept = open("kept"), none = open("none").draw(floor).values;
   same(open("kept", { lit: false }).draw(floor).values, none);
   same(kept.draw(floor).values, none);
-  const relit = kept.draw(floor, { colors: kept.room.parameters.map((p) => p.value.map((x) => x * 1.001)) }).values;
-  if (!relit.some((x, i) => x !== none[i])) throw new Error("nothing changes");
-  near([...relit], [...none], 0.15, "nearly the same");
+  const values = kept.room.parameters.map((p) => p.value), first = (times) => values.map((v, i) => v.map((x) => (i ? x : x * times)));
+  for (const colors of [values.map((v) => v.map((x) => x * 1.001)), first(0.999), first(1.001)]) {
+    const relit = kept.draw(floor, { colors }).values;
+    if (!relit.some((x, i) => x !== none[i])) throw new Error("nothing changes");
+    near([...relit], [...none], 0.002, "nearly the same");
+  }
+  for (const times of [0.5, 3]) {
+    tool("retex-combine", "-q", "kept.exr", "--light", `Sun=${times}`, "--texture", "Floor=rgb(0.1,0.5,0.2)", "-o", "expected.png");
+    least(psnr(kept.draw(floor, { colors: first(times) }), images(["expected.png"])[0]), 36, `the sun times ${times}`);
+  }
 });
 
 test("light with more hits than terms have follows a new colour", () => {

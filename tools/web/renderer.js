@@ -121,7 +121,15 @@ export function checkManifest(room) {
   room.parameters.forEach((p) => color(p.kept));
 }
 
-/* Whether the terms of all light do not have lamps of these colours: those of single lamps take their place. */
+/* What lamps of these colours have in common, in times of what they are kept with: the least of all, by channel. So much of
+ * all light counts, and of each lamp what it has beyond. */
+export function shareLight({ parameters }, colors) {
+  const times = parameters.map(({ kept }, i) => kept.map((k, c) => (k > 0 ? colors[i][c] / k : Infinity)));
+  const common = [0, 1, 2].map((c) => Math.min(...times.map((t) => t[c]))).map((x) => (x < Infinity ? x : 1));
+  return { common, beyond: colors.map((color, i) => color.map((x, c) => (times[i][c] <= common[c] ? 0 : Math.max(x - common[c] * parameters[i].kept[c], 0)))) };
+}
+
+/* Whether the terms of all light do not have lamps of these colours: those of single lamps are needed too. */
 export const isRelit = ({ lamps, parameters }, colors) => !!lamps && colors.some((c, i) => c.some((x, k) => x !== parameters[i].kept[k]));
 
 export class Renderer extends Images {
@@ -134,6 +142,7 @@ export class Renderer extends Images {
     if (Math.max(room.width, room.height) > this.most) throw new Error("The room is too large for this device.");
     canvas.width = room.width;
     canvas.height = room.height;
+    if (room.lamps) room.lamps.finest = Math.min(room.lamps.finest, room.finest); // sums of lamps have those of all light in them
     this.full = room.classes.filter((c) => c.scale === 1);
     this.small = room.classes.filter((c) => c.scale > 1);
     this.full.forEach((c, i) => (c.layer = i));
@@ -231,7 +240,7 @@ export class Renderer extends Images {
    * path's first hit. */
   drawFactors(original, values) {
     const { room } = this, colors = original ? this.rendered : values.colors, relit = !!this.lampTiles && isRelit(room, colors);
-    const to = this.layers(original, relit);
+    const to = this.layers(original, relit), all = this.layers(original, false), { common, beyond } = relit ? shareLight(room, colors) : { common: [1, 1, 1] };
     room.mixtures.forEach((m, mixture) => {
       const c = room.classes[m[0][0]];
       if (c.scale === 1) return;
@@ -239,14 +248,17 @@ export class Renderer extends Images {
       this.draw(this.programOf(mixtureShader, !!this.overs), { ...values, ...(firstHit(room, mixture) >= 0 ? values.first : {}), heads: this.smallHeads, mixture, original: original ? 1 : 0 });
     });
     room.groups.forEach(({ parameters }, group) => {
-      this.into(to.texture, group, ...to.size);
+      if (common.some(Boolean)) {
+        const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * colors[p][k]), common);
+        this.into(all.texture, group, ...all.size);
+        this.draw(this.programOf(factorShader), { mixtures: this.mixtures, reduced: this.reduced, group, color });
+      }
       if (relit) {
         const of = room.lamps.terms, first = of.findIndex((t) => t.group === group), count = of.filter((t) => t.group === group).length;
-        this.draw(this.programOf(lampShader), { mixtures: this.mixtures, tiles: this.lampTiles, terms: this.lampTerms, first, end: first + count, colors: colors.flat() });
-        return;
+        this.into(to.texture, group, ...to.size);
+        this.draw(this.programOf(lampShader), { mixtures: this.mixtures, tiles: this.lampTiles, terms: this.lampTerms, first, end: first + count, colors: beyond.flat(),
+          all: all.texture, allSize: all.size, times: room.finest / room.lamps.finest, group: common.some(Boolean) ? group : -1 });
       }
-      const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * colors[p][k]), [1, 1, 1]);
-      this.draw(this.programOf(factorShader), { mixtures: this.mixtures, reduced: this.reduced, group, color });
     });
     return to;
   }

@@ -92,13 +92,15 @@ void main() {
 }`;
 }
 
-/* The second step where lamps have new colours: for each group the sum over its terms of single lamps. There are many, so
+/* The second step where lamps have new colours: for each group that of all light, which is in `all` if group is not -1, plus the sum over its terms of single lamps. There are many, so
  * the shader reads what they are: rows of a texture, with the box of the gain in the atlas; its scale, curve and lamp; and
  * the layer, size and scale of each mixture. */
 export const lampShader = (room) => `${HEAD}
-uniform sampler2DArray mixtures;
+uniform sampler2DArray mixtures, all;
 uniform sampler2D tiles, terms;
-uniform int first, end;
+uniform int first, end, group;
+uniform vec2 allSize;
+uniform float times;
 uniform vec3 colors[${room.parameters.length}];
 out vec4 result;
 vec3 share(vec4 box, vec4 how) {
@@ -111,6 +113,7 @@ vec3 share(vec4 box, vec4 how) {
 }
 void main() {
   vec3 sum = vec3(0.0);
+  if (group >= 0) sum = texture(all, vec3(clamp(gl_FragCoord.xy / times, vec2(0.5), allSize - 0.5) / vec2(textureSize(all, 0).xy), group)).rgb;
   for (int i = first; i < end; i++) {
     vec4 box = texelFetch(terms, ivec2(0, i), 0), how = texelFetch(terms, ivec2(1, i), 0);
     int count = int(texelFetch(terms, ivec2(2, i), 0).x);

@@ -2,7 +2,8 @@
  * is left out is divided between the next lower and the next higher order that is kept. The two shares are positive
  * and exact for albedo 1 and RETEX_COMPACT_GREY; between these albedos the error is small. With RETEX_COMPACT_MIXED,
  * terms of three and more interreflections use one mixture of all targets' interreflections. Light of single lamps, of
- * which there are many, does so from two on, and keeps fewer orders. */
+ * which there are many, does so from two on; it keeps the same orders, or it would be brighter than in the set with dark
+ * textures, and darker with bright ones. */
 #include "compact/orders.h"
 
 #include <math.h>
@@ -15,7 +16,6 @@
 
 enum { KEPT_ORDERS = 5, FIRST_MIXED = 3, FIRST_MIXED_OF_LAMP = 2 };
 static const int kept_orders[KEPT_ORDERS] = {1, 2, 3, 5, 8}; /* the highest order is kept too */
-static const int kept_orders_of_lamp[KEPT_ORDERS] = {1, 2, 2, 2, 2};
 
 /* Whether a factor is a mixture of interreflection footprints of several targets. */
 static int is_any_target(const RetexSet *set, RetexFactor factor)
@@ -115,10 +115,11 @@ static int find_gain(RetexCompactKind *kind, const RetexCompactLight *light, Ret
     return g;
 }
 
-/* Find the orders of a list that are below and above an order. Returns the share of the lower one. An order of the list
- * is both, share 1. */
-static double between(const int kept[KEPT_ORDERS], int order, int highest, int orders[2])
+/* Find the kept orders that are below and above an order. Returns the share of the lower one. A kept order is both,
+ * share 1. */
+static double between(int order, int highest, int orders[2])
 {
+    const int *kept = kept_orders;
     orders[0] = orders[1] = order;
     for (int i = 0; i < KEPT_ORDERS; i++)
         if (kept[i] == order || order >= highest)
@@ -146,7 +147,7 @@ static void share_term(RetexCompactKind *kind, const RetexCompactLight *light, R
     const RetexFactor *any = mixes ? find_any_target(kind, set) : is_any_target(set, *own) ? own : NULL;
     int orders[2] = {order, order};
     const double share =
-        any || set->ntargets == 1 ? between(alone ? kept_orders_of_lamp : kept_orders, order, highest, orders) : 1;
+        any || set->ntargets == 1 ? between(order, highest, orders) : 1;
     for (int k = 0; k < 2; k++) {
         part->in[mixed][k].share = k ? 1 - share : share;
         part->in[mixed][k].gain =

@@ -10,7 +10,10 @@
 #include "io/checksum.h"
 #include "pack/combine.h"
 #include "pack/model.h"
+#include "retexture/enlarge.h"
 #include "set/set.h"
+
+#define BALANCE_MOST 2 /* times a mean changes at most */
 
 static const int EFFORT = 8;                      /* of blosc's zstd */
 static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a slice that this codec cannot encode */
@@ -88,6 +91,102 @@ static int encode_mask_strip(RetexPackItem *item, int strip, RetexError *err)
     return bytes < 0 ? no_memory(err) : 0;
 }
 
+/* ---- means of what is decoded ----
+ *
+ * Levels are rounded on a curve, so that the mean of what they stand for is another one, and the more so the coarser
+ * the steps are. Light and gains are multiplied by what restores it: of a gain the mean of the decoded light times the
+ * decoded gain, enlarged. So each lamp, and each finish, keeps its mean in every channel. */
+
+static int decode_strip(RetexImage *image, RetexPackJpegDecoder *decoder, const RetexPackItem *item, int strip,
+                        RetexError *err)
+{
+    const RetexPackPart *p = item->packed;
+    const size_t header = item->jpeg.slice_bytes[0], bytes = item->jpeg.slice_bytes[1 + strip];
+    const int rows = retex_pack_strip_rows(p, strip), first = strip * RETEX_PACK_STRIP_ROWS;
+    unsigned char *file = malloc(header + bytes);
+    if (!file)
+        return no_memory(err);
+    memcpy(file, item->jpeg.data, header);
+    memcpy(file + header, item->slices[1 + strip], bytes);
+    int code = retex_pack_jpeg_open_strip(decoder, file, header, header + bytes, p->width, rows, p->channels, &p->curve,
+                                          err);
+    free(file);
+    for (int row = 0; row * RETEX_PACK_BLOCK_ROWS < rows && !code; row++)
+        code = retex_pack_jpeg_decode_blocks(
+            decoder, row, image->pixels + retex_image_index(image, 0, first + row * RETEX_PACK_BLOCK_ROWS), err);
+    return code;
+}
+
+static int decode(RetexImage *image, const RetexPackItem *item, RetexError *err)
+{
+    const RetexImage *im = &item->part->image;
+    RetexPackJpegDecoder *decoder = NULL;
+    int code = retex_image_alloc(image, im->width, im->height, im->channels, err);
+    if (!code)
+        code = retex_pack_jpeg_decoder_create(&decoder, err);
+    for (int strip = 0; strip < item->packed->nstrips && !code; strip++)
+        code = decode_strip(image, decoder, item, strip, err);
+    retex_pack_jpeg_decoder_close(&decoder);
+    for (int y = 0; y < im->height && !code; y++)
+        for (int x = 0; x < im->width; x++)
+            if (is_black(im->pixels + retex_image_index(im, x, y), (size_t)im->channels))
+                memset(image->pixels + retex_image_index(image, x, y), 0, sizeof *image->pixels * (size_t)im->channels);
+    return code;
+}
+
+/* Sums by channel of an image, or of light times a gain, enlarged. */
+static int sum_light(double sum[3], const RetexImage *light /* or NULL */, const RetexImage *image, RetexError *err)
+{
+    const RetexImage *size = light ? light : image;
+    const int scale = (size->width + image->width - 1) / image->width;
+    float *row = malloc(sizeof *row * 3 * (size_t)size->width);
+    sum[0] = sum[1] = sum[2] = 0;
+    for (int y = 0; y < size->height && row; y++) {
+        retex_enlarge_rows(image, scale, size->width, y, y + 1, row);
+        const float *of = light ? light->pixels + retex_image_index(light, 0, y) : NULL;
+        for (int i = 0; i < 3 * size->width; i++)
+            sum[i % 3] += (double)row[i] * (of ? (double)of[i] : 1);
+    }
+    free(row);
+    return row ? RETEX_OK : no_memory(err);
+}
+
+/* light: of a gain the item of its light; of light the item itself. */
+static int restore_mean(RetexPackItem *item, const RetexPackItem *light, RetexError *err)
+{
+    const int is_gain = light != item;
+    RetexPackCurve *curve = &item->packed->curve;
+    RetexImage made = {0};
+    double wanted[3], is[3];
+    int code = decode(&made, item, err);
+    if (!code)
+        code = sum_light(wanted, is_gain ? &light->part->image : NULL, &item->part->image, err);
+    if (!code)
+        code = sum_light(is, !is_gain ? NULL : light->decoded.pixels ? &light->decoded : &light->part->image, &made, err);
+    for (int c = 0; c < 3 && !code; c++)
+        curve->balance[c] =
+            is[c] > 0 && wanted[c] > 0 ? fmin(fmax(wanted[c] / is[c], 1.0 / BALANCE_MOST), BALANCE_MOST) : 1;
+    for (size_t i = 0; i < retex_image_index(&made, 0, made.height) && !code && !is_gain; i++)
+        made.pixels[i] *= (float)curve->balance[i % 3];
+    if (!code && !is_gain)
+        item->decoded = made;
+    else
+        retex_image_free(&made);
+    return code;
+}
+
+/* The part of light that a part is, or that it is a gain of; -1: neither. */
+static int light_of(const RetexSet *set, int part)
+{
+    int light = -1;
+    for (int t = 0; t < set->nterms && part > 0; t++) {
+        const RetexTerm *term = &set->terms[t];
+        if (term->radiance == part || retex_term_image(term) == part)
+            light = term->radiance;
+    }
+    return light;
+}
+
 static int has_black(const RetexImage *im)
 {
     for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++)
@@ -96,8 +195,9 @@ static int has_black(const RetexImage *im)
     return 0;
 }
 
-/* Encode a part as JPEG. The picture (part 0) is for viewers only: it is clipped at white and has no mask. */
-static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
+/* Encode a part as JPEG. The picture (part 0) is for viewers only: it is clipped at white and has no mask. light: see
+ * restore_mean, or NULL. */
+static int encode_jpeg(RetexPackItem *item, int is_picture, const RetexPackItem *light, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
     RetexPackPart *p = item->packed;
@@ -120,7 +220,7 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
     }
     for (int strip = 0; !code && p->masked && strip < p->nstrips; strip++)
         code = encode_mask_strip(item, strip, err);
-    return code;
+    return code || !light || im->channels != 3 ? code : restore_mean(item, light, err);
 }
 
 /* --- planes --- */
@@ -296,10 +396,13 @@ static void encode_whole(void *context, int index, int thread)
 {
     RetexPackEncoded *w = context;
     RetexPackItem *item = &w->items[index];
+    const int light = index < w->set->nparts ? light_of(w->set, index) : -1;
     (void)thread;
+    if ((light >= 0 && light != index) != w->gains)
+        return;
     item->code = retex_pack_samples_crc(&item->crc, item->part, &item->err);
     if (!item->code && item->packed->codec == RETEX_PACK_JPEG)
-        item->code = encode_jpeg(item, index == 0, &item->err);
+        item->code = encode_jpeg(item, index == 0, light < 0 ? NULL : &w->items[light], &item->err);
     if (item->code || !strips_to_encode(item->packed))
         return;
     item->code = retex_pack_part_slices(item->packed, &item->err);
@@ -322,7 +425,10 @@ static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
     const int count = w->nitems;
     int code = 0, strips = 0;
-    retex_parallel(nthreads, count, encode_whole, w);
+    for (w->gains = 0; w->gains < 2; w->gains++) /* gains after the light that they are of */
+        retex_parallel(nthreads, count, encode_whole, w);
+    for (int i = 0; i < count; i++)
+        retex_image_free(&w->items[i].decoded);
     for (int i = 0; i < count; i++) {
         if (!code && w->items[i].code)
             code = retex_fail(err, w->items[i].code, "%s", w->items[i].err.message);
@@ -377,6 +483,7 @@ void retex_pack_encoded_free(RetexPackEncoded *w)
             free(w->items[i].slices[k]);
         free(w->items[i].slices);
         retex_pack_jpeg_free(&w->items[i].jpeg);
+        retex_image_free(&w->items[i].decoded);
         retex_pack_part_free(&w->packed[i]);
     }
     retex_pack_jpeg_free(&w->picture);

@@ -10,6 +10,7 @@ typedef struct RetexPackItem {
     RetexPackPart *packed;
     unsigned char **slices; /* malloc'ed each, except a JPEG's, which point into jpeg.data */
     RetexPackJpeg jpeg;
+    RetexImage decoded; /* of light, while its gains are encoded */
     uint32_t crc; /* of the part's samples */
     int code;
     RetexError err;
@@ -21,6 +22,7 @@ typedef struct RetexPackEncoded {
     RetexPackItem *items;
     int nitems;            /* one for each part; one more if part 0 is also tried alone, not as RETEX_PACK_COMBINED */
     RetexPackJpeg picture; /* for viewers, if the pack is lossless */
+    int gains;             /* 1: gains are encoded, 0: all else */
     int *jobs;             /* pairs: part and strip */
     int njobs;
     int *codes; /* by job: error code */

@@ -143,11 +143,19 @@ static json_t *describe_map(const RetexPackMap *map)
     return o;
 }
 
+static json_t *describe_white(const RetexPackCurve *curve)
+{
+    const double *times = curve->balance;
+    return times[0] > 0 ? json_pack("[f, f, f]", curve->white * times[0], curve->white * times[1],
+                                    curve->white * times[2])
+                        : json_real(curve->white);
+}
+
 static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart *packed)
 {
     json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", retex_pack_codec_names[packed->codec]);
     if (packed->codec == RETEX_PACK_JPEG) {
-        retex_json_put(&o, "white", json_real(packed->curve.white));
+        retex_json_put(&o, "white", describe_white(&packed->curve));
         retex_json_put(&o, "levels", json_real(packed->curve.levels));
         retex_json_put(&o, "masked", json_boolean(packed->masked));
     }
@@ -276,6 +284,16 @@ static int named_part(const json_t *o, const char *key, const RetexSet *set, con
     return part;
 }
 
+/* One number, or one for each channel. */
+static int parse_white(RetexPackCurve *curve, const json_t *o)
+{
+    int ok = json_is_array(o) ? json_array_size(o) == 3 : get_positive(o, &curve->white);
+    for (size_t c = 0; c < 3 && ok && json_is_array(o); c++)
+        ok = get_positive(json_array_get(o, c), &curve->balance[c]);
+    curve->white = json_is_array(o) ? 1 : curve->white;
+    return ok;
+}
+
 static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *o, RetexError *err)
 {
     const char *codec = json_string_value(json_object_get(o, "codec"));
@@ -291,7 +309,7 @@ static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *
     ok = codec != NULL && packed->channels <= RETEX_PACK_CHANNELS_MAX;
     if (ok && packed->codec == RETEX_PACK_JPEG) {
         const json_t *masked = json_object_get(o, "masked");
-        ok = get_positive(json_object_get(o, "white"), &packed->curve.white) &&
+        ok = parse_white(&packed->curve, json_object_get(o, "white")) &&
              get_positive(json_object_get(o, "levels"), &packed->curve.levels) && packed->curve.levels >= 255 &&
              packed->curve.levels <= RETEX_PACK_LEVELS_MOST && json_is_boolean(masked) &&
              (packed->channels == 1 || packed->channels == 3) && packed->width <= RETEX_PACK_JPEG_SIDE_MAX &&

@@ -49,7 +49,10 @@ static RetexPackLevels levels_of(const RetexPackCurve *curve)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, fill_shares);
-    return (RetexPackLevels){(float)(ENTRIES_TO_WHITE / curve->levels), (float)curve->white, shares};
+    RetexPackLevels levels = {.scale = (float)(ENTRIES_TO_WHITE / curve->levels), .share = shares};
+    for (int c = 0; c < 3; c++)
+        levels.white[c] = (float)(curve->white * (curve->balance[c] > 0 ? curve->balance[c] : 1));
+    return levels;
 }
 
 /* --- libjpeg's errors --- */

@@ -119,7 +119,7 @@ static inline float value_of(float level, const RetexPackLevels *levels)
     const float scaled = level * levels->scale, place = scaled > 0 ? scaled : 0;
     const int entry = place < RETEX_PACK_LEVEL_ENTRIES ? (int)place : RETEX_PACK_LEVEL_ENTRIES;
     const float low = levels->share[entry];
-    return (low + (levels->share[entry + 1] - low) * (place - (float)entry)) * levels->white;
+    return low + (levels->share[entry + 1] - low) * (place - (float)entry);
 }
 
 static void colors_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
@@ -127,16 +127,17 @@ static void colors_plain(float *restrict values, const float *y, const float *cb
 {
     for (int i = 0; i < count; i++) {
         const float level = y[i] + 128;
-        values[3 * i] = value_of(level + 1.402f * cr[i], levels);
-        values[3 * i + 1] = value_of(level - 0.344136286f * cb[i] - 0.714136286f * cr[i], levels);
-        values[3 * i + 2] = value_of(level + 1.772f * cb[i], levels);
+        values[3 * i] = value_of(level + 1.402f * cr[i], levels) * levels->white[0];
+        values[3 * i + 1] =
+            value_of(level - 0.344136286f * cb[i] - 0.714136286f * cr[i], levels) * levels->white[1];
+        values[3 * i + 2] = value_of(level + 1.772f * cb[i], levels) * levels->white[2];
     }
 }
 
 static void greys_plain(float *restrict values, const float *y, int count, const RetexPackLevels *levels)
 {
     for (int i = 0; i < count; i++)
-        values[i] = value_of(y[i] + 128, levels);
+        values[i] = value_of(y[i] + 128, levels) * levels->white[0];
 }
 
 /* --- back: eight at a time --- */
@@ -225,7 +226,7 @@ RETEX_CPU_INLINE __m256 values_of(__m256 level, const RetexPackLevels *levels)
     const __m256 a = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(halves), 4)),
                  b = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_extracti128_si256(halves, 1), 4));
     const __m256 low = _mm256_shuffle_ps(a, b, 0x88), high = _mm256_shuffle_ps(a, b, 0xdd);
-    return (low + (high - low) * (place - _mm256_cvtepi32_ps(entry))) * levels->white;
+    return low + (high - low) * (place - _mm256_cvtepi32_ps(entry));
 }
 
 static void colors_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
@@ -237,10 +238,10 @@ static void colors_avx2(float *restrict values, const float *y, const float *cb,
     for (; i + 8 <= count; i += 8) {
         const __m256 level = _mm256_loadu_ps(y + i) + 128;
         const __m256 b = _mm256_loadu_ps(cb + i), r = _mm256_loadu_ps(cr + i);
-        const __m256 red = _mm256_permutevar8x32_ps(values_of(level + 1.402f * r, levels), reds);
-        const __m256 green =
-            _mm256_permutevar8x32_ps(values_of(level - 0.344136286f * b - 0.714136286f * r, levels), greens);
-        const __m256 blue = _mm256_permutevar8x32_ps(values_of(level + 1.772f * b, levels), blues);
+        const __m256 red = _mm256_permutevar8x32_ps(values_of(level + 1.402f * r, levels) * levels->white[0], reds);
+        const __m256 green = _mm256_permutevar8x32_ps(
+            values_of(level - 0.344136286f * b - 0.714136286f * r, levels) * levels->white[1], greens);
+        const __m256 blue = _mm256_permutevar8x32_ps(values_of(level + 1.772f * b, levels) * levels->white[2], blues);
         float *to = values + 3 * (size_t)i;
         _mm256_storeu_ps(to, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x92), blue, 0x24));
         _mm256_storeu_ps(to + 8, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x24), blue, 0x49));
@@ -254,7 +255,7 @@ static void greys_avx2(float *restrict values, const float *y, int count, const 
 {
     int i = 0;
     for (; i + 8 <= count; i += 8)
-        _mm256_storeu_ps(values + i, values_of(_mm256_loadu_ps(y + i) + 128, levels));
+        _mm256_storeu_ps(values + i, values_of(_mm256_loadu_ps(y + i) + 128, levels) * levels->white[0]);
     _mm256_zeroupper();
     greys_plain(values + i, y + i, count - i, levels);
 }

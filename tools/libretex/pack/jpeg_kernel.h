@@ -11,7 +11,7 @@ enum { RETEX_PACK_LEVEL_ENTRIES = 8192 };
 /* Which values levels stand for: entries, between which one interpolates; beyond the last one the line goes on. */
 typedef struct RetexPackLevels {
     float scale;        /* entries a level */
-    float white;        /* times the entry is the value */
+    float white[3];     /* by channel, times the entry is the value */
     const float *share; /* of white: [RETEX_PACK_LEVEL_ENTRIES + 2] */
 } RetexPackLevels;
 

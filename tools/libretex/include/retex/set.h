@@ -139,11 +139,11 @@ typedef enum RetexRole {
                                    rendered. It is not added to the others: where nothing is edited it stands for their
                                    sum, from which rounding has not taken anything. At most one term has it */
     RETEX_ROLE_LAMP,            /* light of one lamp, for the value 1 of its parameter of kind COLOR, which is a factor.
-                                   Terms of this role are not added to the others: where a parameter has another value
-                                   than `kept`, they stand for them all, but for corrections */
+                                   Of the light that all lamps have in common, in times of `kept`, the other terms are
+                                   the sum; of these counts what each lamp has beyond */
     RETEX_ROLE_LAMP_PICTURE     /* the picture by one lamp with all originals, for the value 1 of its parameter of kind
-                                   COLOR, its only factor. Where no target is edited they stand for those of role LAMP,
-                                   as PICTURE does for all light */
+                                   COLOR, its only factor. Where no target is edited, and a lamp has a value that it
+                                   was not rendered with, their sum is the picture */
 } RetexRole;
 enum { RETEX_ROLES = RETEX_ROLE_LAMP_PICTURE + 1 };
 
