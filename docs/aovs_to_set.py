@@ -3,8 +3,9 @@
 
     aovs_to_set.py --target Floor --object 1 --samples 4 AOVS.exr SET.exr
 
-AOVS.exr has the layers beauty, albedo, irradiance (R, G, B), uv (U, V) and object (one channel). They are not filtered,
-and N times as large as the set in each direction (--samples N): N x N of their pixels are the samples of one pixel.
+AOVS.exr has the layers beauty, albedo, reflectance, irradiance (R, G, B), uv (U, V) and object (one channel). They are
+not filtered, and N times as large as the set in each direction (--samples N): N x N of their pixels are the samples of
+one pixel. Without reflectance the albedo is taken for it.
 docs/own-renderer.md explains each step. Needs python3-openimageio and python3-numpy."""
 import argparse
 import json
@@ -39,9 +40,13 @@ def statistics(layers, object_number, n):
 
     hit = samples("object", layers["object"]) == object_number  # does the sample see the target?
     picture = samples("beauty", "RGB")
-    # A diffuse surface of albedo a reflects a E / pi of the irradiance E: E / pi is the light without the texture.
-    light = np.where(hit, samples("irradiance", "RGB") / np.pi, 0)
+    # A diffuse surface of reflectance r gives back r E / pi of the irradiance E. Its texture's part of r is the albedo:
+    # the rest, r / albedo, is the finish's. It is grey, and where the texture is black it is that of other samples.
     albedo = samples("albedo", "RGB")
+    reflectance = samples("reflectance" if "reflectance" in layers else "albedo", "RGB")
+    given, color = (np.where(hit, of, 0).sum(axis=3, keepdims=True) for of in (reflectance, albedo))
+    finish = np.where(color > 0, given / np.maximum(color, 1e-30), given.sum() / color.sum() if color.any() else 1)
+    light = np.where(hit, samples("irradiance", "RGB") / np.pi * finish, 0)
     dep = light.mean(axis=2)
     indep = np.where(hit, 0, picture).mean(axis=2)
 

@@ -134,6 +134,7 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         SeenLeaf seen = {.share = 1};
         shading_at(&seen.s, scene, variants, 1, ray, hit);
         seen.albedo = shading_albedo(&seen.s, 0);
+        seen.reflectance = rgb_scale(seen.albedo, shading_reflectance(&seen.s));
         seen.targets = whole.target >= 0 ? 1u << whole.target : 0;
         visit(context, &seen);
         return;
@@ -145,7 +146,10 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         SeenLeaf seen = {.share = leaves_share(&leaves, k), .targets = leaf_targets(&leaves, leaf)};
         shading_leaf(&seen.s, &whole, leaf, variants, 1);
         shading_bsdf(&seen.s, wo);
-        seen.albedo = rgb_scale(seen_albedo(&seen.s, &whole, &leaves, leaf, variants), surplus);
+        const Rgb albedo = seen_albedo(&seen.s, &whole, &leaves, leaf, variants);
+        seen.albedo = rgb_scale(albedo, surplus);
+        if (seen.share > 0)
+            seen.reflectance = rgb_scale(albedo, leaf->weight / seen.share * shading_reflectance(&seen.s));
         visit(context, &seen);
     }
 }
@@ -184,6 +188,17 @@ float shading_roughness(const Shading *s)
     if (finish_is_mirror(s->surface.texture->finish) || !rgb_is_black(b->passing.d) || !rgb_is_black(b->passing.i))
         return 0;
     return b->highlights > 0 ? sqrtf(bsdf_highlight_alpha(b)) : 1;
+}
+
+/* Of the diffuse lobes, for light from all sides alike. A cosine to the power of the brilliance has the integral
+ * 2 pi / (brilliance + 1). Light that goes below the surface counts where it goes in. */
+float shading_reflectance(const Shading *s)
+{
+    const Bsdf *b = &s->bsdf;
+    if (b->lambert)
+        return b->diffuse;
+    const float of_lobe = b->disney ? 1 : 2 / (b->brilliance + 1), under = b->coating.present ? b->coating.under : 1;
+    return (b->diffuse + b->subsurface) * of_lobe * under;
 }
 
 float shading_metallic(const Shading *s)

@@ -63,6 +63,13 @@ static void metallic_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
     value[0] = shading_metallic(&leaf->s);
 }
 
+static void reflectance_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
+{
+    const Rgb reflectance = leaf->reflectance;
+    (void)hit;
+    value[0] = reflectance.r, value[1] = reflectance.g, value[2] = reflectance.b;
+}
+
 /* NULL: the AOV does not depend on first hits alone; render.c adds it. */
 static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_DEPTH] = depth_at,
@@ -73,6 +80,7 @@ static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_OBJECT] = object_at,
     [RETEX_AOV_ROUGHNESS] = roughness_at,
     [RETEX_AOV_METALLIC] = metallic_at,
+    [RETEX_AOV_REFLECTANCE] = reflectance_at,
     [RETEX_AOV_ALBEDO_MEAN] = albedo_at,
     [RETEX_AOV_NORMAL_MEAN] = normal_at,
 };
@@ -83,7 +91,8 @@ void first_hit_value(RetexAov aov, float value[3], const Hit *hit, const SeenLea
 }
 
 /* AOVs that are the mean of a texture's leaves; of the others the leaf that is seen most counts. */
-static const unsigned aov_means = 1u << RETEX_AOV_ALBEDO | 1u << RETEX_AOV_ROUGHNESS | 1u << RETEX_AOV_METALLIC;
+static const unsigned aov_means = RETEX_AOV_BIT(ALBEDO) | RETEX_AOV_BIT(ROUGHNESS) | RETEX_AOV_BIT(METALLIC) |
+                                  RETEX_AOV_BIT(REFLECTANCE);
 
 typedef struct AovJob {
     const FirstHitWindow *window;

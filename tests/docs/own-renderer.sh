@@ -15,8 +15,8 @@ status=$?
 [ $status = 0 ] || sed 's/^/# /' "$work/out"
 result "$([ $status = 0 ] && [ -s own.png ] && echo 1)" "the commands of the page work"
 
-again() { # IMAGE OUT
-    retex-render -q --size 96x96 --spp 256 --seed 1 --replace "Floor=$1" scenes/cornell-box/cornell-box.pov -o "$2"
+again() { # IMAGE OUT [SCENE]
+    retex-render -q --size 96x96 --spp 256 --seed 1 --replace "Floor=$1" "${3:-scenes/cornell-box/cornell-box.pov}" -o "$2"
 }
 crop() { oiiotool "$1" --ch R,G,B --cut 60x8+18+87 -o "$2"; } # shows nothing but the floor
 for texture in textures/terrazzo glass-caustics/textures/marble-tiles; do
@@ -50,4 +50,25 @@ result "$([ $? = 1 ] && echo 1)" "damage is noticed"
 /usr/bin/python3 docs/aovs_to_set.py --target Floor --object 99 aovs.exr none.exr 2>message
 result "$([ $? = 1 ] && [ "$(cat message)" = 'aovs_to_set.py: no sample sees Floor' ] && [ ! -e none.exr ] && echo 1)" \
     "an object that is not seen is said"
+
+# Of a floor that gives back 0.9 of its colour, black in places, the light is that of rendering again, not 1.11 times as
+# much.
+cat >matt.pov <<'END'
+#version 3.7;
+global_settings { assumed_gamma 1 radiosity {} }
+#default { finish { ambient 0 diffuse 0.9 } }
+camera { location <0, 2, -3> look_at <0, 0, 0.5> right x up y angle 50 }
+#declare Floor = texture { pigment { checker rgb 0, rgb <0.8, 0.6, 0.4> scale 0.5 } }
+plane { y, 0 texture { Floor } }
+light_source { <2, 4, -3> rgb 0.7 }
+sky_sphere { pigment { rgb 0.2 } }
+END
+eval "$(sed -n '/--aov/,/retex-info/p' "$work/commands" | sed 's|scenes/cornell-box/cornell-box.pov|matt.pov|; /retex-info/d')"
+retex-combine -q own.exr --texture 'Floor=rgb(0.5,0.4,0.3)' -o matt.exr
+again 'rgb(0.5,0.4,0.3)' matt-again.exr matt.pov
+oiiotool matt.exr --ch R,G,B --cut 96x40+0+56 -o a.exr
+oiiotool matt-again.exr --ch R,G,B --cut 96x40+0+56 -o b.exr
+brighter=$(oiiotool --info --stats a.exr b.exr | awk '/Stats Avg/ { mean[++n] = $3 } END { print mean[1] / mean[2] }')
+echo "# the floor by the example over that of rendering again: $brighter"
+result "$([ "$(at_least "$brighter" 0.99)$(at_most "$brighter" 1.01)" = 11 ] && echo 1)" "the finish's share of light counts"
 finish

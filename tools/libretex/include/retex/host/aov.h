@@ -27,7 +27,7 @@ typedef enum RetexAovShown {
 #define RETEX_AOV_TABLE(X)                                                                                             \
     /* distance along the ray, scene units */                                                                          \
     X(DEPTH, "depth", "R", RETEX_FLOAT, INFINITY, RETEX_AOV_RANGE)                                                     \
-    /* the pigment's colour, scene-linear */                                                                           \
+    /* the pigment's colour, scene-linear, without the finish: what a new texture replaces */                          \
     X(ALBEDO, "albedo", "RGB", RETEX_FLOAT, 0, RETEX_AOV_COLOR)                                                        \
     /* x, y, z of the unit shading normal, on the camera's side, world space */                                        \
     X(NORMAL, "normal", "RGB", RETEX_FLOAT, 0, RETEX_AOV_SIGNED)                                                       \
@@ -41,6 +41,9 @@ typedef enum RetexAovShown {
     X(ROUGHNESS, "roughness", "R", RETEX_FLOAT, 0, RETEX_AOV_SHARE)                                                    \
     /* 0..1, how much the surface's reflections have the pigment's colour */                                           \
     X(METALLIC, "metallic", "R", RETEX_FLOAT, 0, RETEX_AOV_SHARE)                                                      \
+    /* the share of light from all sides alike that the diffuse lobes give back on the side that is seen: the albedo   \
+     * times what the finish makes of it */                                                                            \
+    X(REFLECTANCE, "reflectance", "RGB", RETEX_FLOAT, 0, RETEX_AOV_COLOR)                                              \
     /* direct and indirect light on the side that is seen: pi times the radiance of a white diffuse surface there */   \
     X(IRRADIANCE, "irradiance", "RGB", RETEX_FLOAT, 0, RETEX_AOV_EXPOSED)                                              \
     /* albedo and normal, not at the pixel's centre but averaged over its samples, what hits nothing as 0 */           \
