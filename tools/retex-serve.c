@@ -1,4 +1,5 @@
 /* retex-serve: pictures of rooms by URL. See retex-serve(1). */
+#include <errno.h>
 #include <limits.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -6,9 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <retex/retex.h>
 
+#include "common/beneath.h"
 #include "common/cli.h"
 #include "serve/http/http.h"
 #include "serve/request/parse.h"
@@ -171,6 +174,16 @@ static char *find_folder(const Cli *cli, RetexAccess *access, const char **roots
     return path;
 }
 
+/* Of a folder that is written to, and that may have come with the rooms, from a stranger. */
+static void refuse_link(const Cli *cli, const char *option, const char *name)
+{
+    const int top = name ? beneath_open_top(name, 0) : -1;
+    if (name && top < 0 && errno == ELOOP)
+        cli_die(cli, "%s: %s is a link; give the folder that it leads to", option, name);
+    if (top >= 0)
+        close(top);
+}
+
 static void allow_folders(const Cli *cli, const Job *job, Folders *folders)
 {
     *folders = (Folders){.access = RETEX_ACCESS_INIT};
@@ -178,6 +191,7 @@ static void allow_folders(const Cli *cli, const Job *job, Folders *folders)
     folders->access.accept_damaged = cli->access.accept_damaged;
     folders->access.roots = folders->roots;
     folders->textures = find_folder(cli, &folders->access, folders->roots, "--textures", job->textures);
+    refuse_link(cli, "--uploads", job->uploads);
     folders->uploads = find_folder(cli, &folders->access, folders->roots, "--uploads", job->uploads);
     folders->access_to_presets = (RetexAccess)RETEX_ACCESS_INIT;
     folders->access_to_presets.safe = 1;

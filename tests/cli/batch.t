@@ -591,6 +591,16 @@ $ retex-combine -q s.exr --batch ../t --batch-root base
 $ retex-combine -q s.exr --batch ../t --batch-root s.exr --mkdir
 ! retex-combine: error: --batch-root s.exr: no such folder
 = 2
+$ ln -s ../outside base
+$ for root in base base/ base//; do retex-combine -q s.exr --batch ../t --batch-root $root --mkdir; done
+! retex-combine: error: --batch-root base is a link; give the folder that it leads to
+! retex-combine: error: --batch-root base/ is a link; give the folder that it leads to
+! retex-combine: error: --batch-root base// is a link; give the folder that it leads to
+= 2
+$ ls ../outside/a.png && echo written
+! ls: cannot access '../outside/a.png': No such file or directory
+= 2
+$ rm base
 $ retex-combine -q s.exr --batch ../t --batch-root base/of/batch --mkdir --dry-run
 $ retex-combine -q s.exr --batch ../t --batch-root base/of/batch --mkdir
 $ find base | sort

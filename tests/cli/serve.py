@@ -782,6 +782,18 @@ def slow(server):
     expect('others', ask(server, '/v1/small/full.jpg').status, 200)
 
 
+def moved(server):
+    """A link that takes the place of the folder of images leads nothing elsewhere."""
+    image = open('outside.jpg', 'rb').read()
+    open('away/.incoming-1.jpg', 'w').close(), os.utime('away/.incoming-1.jpg', (0, 0))
+    open(f'away/{"0" * 64}.jpg', 'w').close(), os.utime(f'away/{"0" * 64}.jpg', (0, 0))
+    before = sorted(os.listdir('away'))
+    os.rename('moving', 'moved'), os.symlink('away', 'moving')
+    expect('refused', send(server, image).status in (415, 500), True)
+    time.sleep(6)  # old images are looked for
+    expect('untouched', (sorted(os.listdir('away')), os.listdir('moved')), (before, []))
+
+
 def nuls(server):
     """%00 is of no URL, whatever the method."""
     for path in ('/%00', '/v1%00', '/v1/small%00/full.png', '/v1/small/full.png%00', '/v1/small/Floor=oak%00/full.png',
@@ -825,6 +837,7 @@ OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-c
                        '--upload-age', '3600'],
            'decoders': ['--uploads', 'strange', '--upload-time', '2'],
            'hurried': ['--uploads', 'strange', '--deadline', '1'],
+           'moved': ['--uploads', 'moving', '--upload-age', '1'],
            'documented': ['--uploads', 'uploads'], 'heads': ['--uploads', 'uploads'],
            'proxied': ['--uploads', 'uploads', '--trusted-proxy', '127.0.0.1', '--per-client', '8', '--threads', '1'],
            'clients': ['--uploads', 'uploads', '--per-client', '16'], 'crawling': ['--uploads', 'uploads'],

@@ -49,6 +49,13 @@ $ serve uploads documented off heads
 > documented
 > off
 > heads
+$ ln -s uploads linked
+$ retex-serve rooms --port 0 --uploads linked/
+! retex-serve: error: --uploads: linked/ is a link; give the folder that it leads to
+= 2
+$ mkdir moving away
+$ serve moved
+> moved
 $ mkdir strange
 $ python3 "$TESTS/decoder.py"
 $ serve decoders hurried

@@ -32,6 +32,25 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 $ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 118784 && echo small
 > small
 
+# A folder that is there may be a stranger's: a link in it, or in its place, leads nothing elsewhere.
+$ mkdir keep && echo mine >keep/mine
+$ for name in index.html room.json look.json textures deep/down; do
++     mkdir -p bad/deep && ln -s "$PWD/keep/mine" bad/$name && retex-pack -q s.exr --web bad
++     rm -r bad
++ done 2>&1 | sort -u
+> retex-pack: error: bad/deep/down is a link: a page is written beside none
+> retex-pack: error: bad/index.html is a link: a page is written beside none
+> retex-pack: error: bad/look.json is a link: a page is written beside none
+> retex-pack: error: bad/room.json is a link: a page is written beside none
+> retex-pack: error: bad/textures is a link: a page is written beside none
+$ ln -s keep bad
+$ retex-pack -q s.exr --web bad/
+! retex-pack: error: bad/ is a link: a page is written beside none
+= 2
+$ ls keep; cat keep/mine; rm -r bad keep
+> mine
+> mine
+
 # What a room of this size takes until the first target can be changed, and in all: a little more than it did.
 $ retex-pack s.exr --web out/room 2>&1 | awk 'NR == 2 { print ($10 <= 33500), ($4 <= 56000) }' | grep -q '1 1' ||
 +     retex-pack s.exr --web out/room

@@ -10,6 +10,7 @@
 #include <retex/retex.h>
 
 #include "batch/batch.h"
+#include "common/beneath.h"
 #include "common/output_folder.h"
 #include "common/texture_args.h"
 
@@ -271,12 +272,17 @@ static void check_rows(Batch *batch, const RetexWriteParams *params)
 
 /* ---- the whole table ---- */
 
-/* Resolve --batch-root; --mkdir also creates it. */
+/* Resolve --batch-root; --mkdir also creates it. It may come from a stranger, with what is in it: it is no link. */
 static void find_root(Batch *batch)
 {
     RetexError err = {0};
     struct stat info;
+    const int top = beneath_open_top(batch->root, 0);
     int missing;
+    if (top < 0 && errno == ELOOP)
+        cli_die(batch->cli, "--batch-root %s is a link; give the folder that it leads to", batch->root);
+    if (top >= 0)
+        close(top);
     char root[PATH_MAX];
     size_t length = (size_t)snprintf(root, sizeof root, "%s", batch->root);
     while (length > 1 && length < sizeof root && root[length - 1] == '/')

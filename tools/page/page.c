@@ -1,6 +1,7 @@
 /* See page.h. */
 #include "page/page.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +10,7 @@
 
 #include <retex/output_file.h>
 
+#include "common/beneath.h"
 #include "common/output_folder.h"
 #include "page/added.h"
 #include "page/look.h"
@@ -86,12 +88,32 @@ void page_announce(Cli *cli, const Page *page)
     cli_writes(cli, "--web", manifest);
 }
 
+static int refuse_link(const char *folder, const char *name, RetexError *err)
+{
+    return retex_fail(err, RETEX_EACCESS, "%s%s%s is a link: a page is written beside none", folder, *name ? "/" : "",
+                      name);
+}
+
+/* A folder that is there may come from a stranger: nothing that is written into it may go elsewhere. */
+static int check_links(const char *folder, RetexError *err)
+{
+    char found[PATH_MAX];
+    const int top = beneath_open_top(folder, 0);
+    if (top < 0)
+        return errno == ELOOP ? refuse_link(folder, "", err) : RETEX_OK; /* it is made, or what is wrong is told then */
+    const int is_linked = beneath_find_link(top, found);
+    close(top);
+    return is_linked > 0 ? refuse_link(folder, found, err) : RETEX_OK;
+}
+
 static int write_files(Cli *cli, const Page *page, const RetexSet *set, RetexEdit *look, Added *added,
                        RetexWebBytes *bytes, RetexError *err)
 {
     char manifest[PATH_MAX];
     manifest_of(manifest, cli, page->folder);
-    int code = output_make_folders(manifest, err);
+    int code = check_links(page->folder, err);
+    if (!code)
+        code = output_make_folders(manifest, err);
     if (!code && page->preset)
         code = look_write(look, cli, page->folder, added, err);
     if (!code)

@@ -522,8 +522,8 @@ static int encode(const RetexDecoderOrder *order, const RetexImage *image, const
     return code;
 }
 
-int retex_picture_encode(const RetexImage *image, const char *format, const RetexWriteParams *given,
-                         const RetexBudget *budget, int nthreads, void **data, size_t *bytes, RetexError *err)
+int retex_picture_encode(void **data, size_t *bytes, const RetexImage *image, const char *format,
+                         const RetexWriteParams *given, const RetexBudget *budget, int nthreads, RetexError *err)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
     RetexDecoderOrder order = {.magic = RETEX_DECODER_MAGIC,

@@ -16,6 +16,7 @@
 #include <retex/clock.h>
 #include <retex/texture.h>
 
+#include "common/beneath.h"
 #include "common/picture_kind.h"
 #include "serve/files/decoding.h"
 
@@ -25,6 +26,7 @@ enum { MOST_ARRIVING = 64, MOST_IN_MEMORY = 8 /* of the largest size */, LOOK_SE
 
 struct Uploads {
     UploadsParams params;
+    int folder; /* open: what becomes of its name later is no matter */
     RetexAccess access;
     pthread_mutex_t lock; /* protects all below, and the names in the folder */
     int count, arriving;
@@ -52,7 +54,10 @@ static int is_upload(const char *name)
 static int look(Uploads *uploads, int is_start)
 {
     const double now = (double)time(NULL), seconds = uploads->params.seconds;
-    DIR *folder = opendir(uploads->params.folder);
+    const int file = beneath_open(uploads->folder, "", O_RDONLY | O_DIRECTORY, 0);
+    DIR *folder = file < 0 ? NULL : fdopendir(file);
+    if (!folder && file >= 0)
+        close(file);
     if (!folder)
         return -1;
     uploads->count = 0;
@@ -84,13 +89,17 @@ int uploads_open(Uploads **result, const UploadsParams *params, RetexError *err)
     uploads->access.safe = 1;
     uploads->access.roots = &uploads->params.folder;
     uploads->access.nroots = 1;
-    if (access(params->folder, R_OK | W_OK | X_OK) == 0 && look(uploads, 1) == 0) {
+    uploads->folder = beneath_open_top(params->folder, 0);
+    if (uploads->folder >= 0 && faccessat(uploads->folder, ".", R_OK | W_OK | X_OK, 0) == 0 && look(uploads, 1) == 0) {
         pthread_mutex_init(&uploads->lock, NULL);
         return RETEX_OK;
     }
+    retex_fail(err, RETEX_EIO, "--uploads: cannot write to %s: %s", params->folder, strerror(errno));
+    if (uploads->folder >= 0)
+        close(uploads->folder);
     free(uploads);
     *result = NULL;
-    return retex_fail(err, RETEX_EIO, "--uploads: cannot write to %s: %s", params->folder, strerror(errno));
+    return RETEX_EIO;
 }
 
 void uploads_close(Uploads *uploads)
@@ -98,6 +107,7 @@ void uploads_close(Uploads *uploads)
     if (!uploads)
         return;
     pthread_mutex_destroy(&uploads->lock);
+    close(uploads->folder);
     free(uploads);
 }
 
@@ -172,14 +182,14 @@ static int reserve(Uploads *uploads, size_t bytes)
 }
 
 /* Give a complete file its name, or remove it; its place is no longer reserved. */
-static int settle(Uploads *uploads, const char *incomplete, const char *path, size_t bytes, int failed)
+static int settle(Uploads *uploads, const char *incomplete, const char *name, size_t bytes, int failed)
 {
     pthread_mutex_lock(&uploads->lock);
     uploads->nreserved--;
     uploads->reserved -= bytes;
-    failed = failed || rename(incomplete, path) != 0;
+    failed = failed || renameat(uploads->folder, incomplete, uploads->folder, name) != 0;
     if (failed) {
-        unlink(incomplete);
+        unlinkat(uploads->folder, incomplete, 0);
     } else {
         uploads->count++;
         uploads->bytes += bytes;
@@ -188,9 +198,15 @@ static int settle(Uploads *uploads, const char *incomplete, const char *path, si
     return failed;
 }
 
-static int write_file(const char *path, const char *data, size_t bytes)
+/* As textures are read: by names, in safe access. */
+static int path_of(const Uploads *uploads, const char *name, char path[PATH_MAX])
 {
-    const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0644);
+    return snprintf(path, PATH_MAX, "%s/%s", uploads->params.folder, name) < PATH_MAX;
+}
+
+static int write_file(const Uploads *uploads, const char *name, const char *data, size_t bytes)
+{
+    const int file = beneath_open(uploads->folder, name, O_WRONLY | O_CREAT | O_EXCL, 0644);
     size_t done = 0;
     if (file < 0)
         return errno;
@@ -257,22 +273,20 @@ static Answer *full(void)
 }
 
 /* A new file. */
-static Answer *add(Uploads *uploads, const char *path, const char *name, const char *data, size_t bytes,
-                   double deadline)
+static Answer *add(Uploads *uploads, const char *name, const char *data, size_t bytes, double deadline)
 {
-    char incomplete[PATH_MAX];
+    char incomplete[64], path[PATH_MAX];
     int size[2] = {0, 0};
     if (!reserve(uploads, bytes))
         return full();
     pthread_mutex_lock(&uploads->lock);
     const unsigned long serial = ++uploads->serial;
     pthread_mutex_unlock(&uploads->lock);
-    const int length = snprintf(incomplete, sizeof incomplete, "%s/" INCOMPLETE "%lu.%s", uploads->params.folder,
-                                serial, strrchr(name, '.') + 1);
-    const int failed = length < (int)sizeof incomplete ? write_file(incomplete, data, bytes) : ENAMETOOLONG;
+    snprintf(incomplete, sizeof incomplete, INCOMPLETE "%lu.%s", serial, strrchr(name, '.') + 1);
+    const int failed = path_of(uploads, incomplete, path) ? write_file(uploads, incomplete, data, bytes) : ENAMETOOLONG;
     Answer *error = NULL;
-    const int is_wrong = !failed && check(uploads, incomplete, deadline, size, &error);
-    if (!settle(uploads, incomplete, path, bytes, failed || is_wrong))
+    const int is_wrong = !failed && check(uploads, path, deadline, size, &error);
+    if (!settle(uploads, incomplete, name, bytes, failed || is_wrong))
         return tell(uploads, 201, name, bytes, size);
     return is_wrong                                                  ? error
            : failed == ENOSPC || failed == EDQUOT || failed == EFBIG ? full()
@@ -289,10 +303,10 @@ Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_
             415,
             "expected an image, the file itself and no form: JPEG, PNG, OpenEXR, TIFF, BMP, GIF, WebP or Radiance HDR");
     snprintf(name, sizeof name, "%s.%s", hash, kind->ending);
-    if (snprintf(path, sizeof path, "%s/%s", uploads->params.folder, name) >= (int)sizeof path)
+    if (!path_of(uploads, name, path))
         return answer_error(500, "the server cannot keep this");
-    if (utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW) != 0)
-        return add(uploads, path, name, data, bytes, deadline);
+    if (utimensat(uploads->folder, name, NULL, AT_SYMLINK_NOFOLLOW) != 0)
+        return add(uploads, name, data, bytes, deadline);
     Answer *error = NULL;
     return check(uploads, path, deadline, size, &error) ? error : tell(uploads, 200, name, bytes, size);
 }

@@ -172,8 +172,8 @@ static Answer *refuse_head(const Exchange *exchange, const char *method, const c
     return head_end(&fields->check) ? answer_error(fields->check.status, "%s", fields->check.fault) : NULL;
 }
 
-/* Who has asked, which behind a proxy that is trusted is whom it tells; an error where it has too much already. All whom
- * it does not know are one. A proxy that asks for itself may have any number. */
+/* Who has asked, which behind a proxy that is trusted is whom it tells; an error where it has too much already. All
+ * whom it does not know are one. A proxy that asks for itself may have any number. */
 static Answer *refuse_client(Exchange *exchange, const char *forwarded)
 {
     const Connection *connection = exchange_connection(exchange);

@@ -70,7 +70,8 @@ static int write_rows(void *context, int y0, int y1, const float *rows, RetexErr
 static int is_whole(const PicturePlan *plan)
 {
     const RetexSetInfo info = retex_set_info(plan->set);
-    return is_quick(plan->format, info.width, info.height) && retex_cut_is_whole(&plan->place, info.width, info.height) && !plan->quarter_turns && !plan->mirror &&
+    return is_quick(plan->format, info.width, info.height) &&
+           retex_cut_is_whole(&plan->place, info.width, info.height) && !plan->quarter_turns && !plan->mirror &&
            !plan->gray;
 }
 
@@ -183,8 +184,10 @@ static int encode_in_time(const PicturePlan *plan, const RetexImage *image, int 
         code = retex_budget_create(&budget, err);
     if (code)
         return code;
-    retex_budget_set_seconds(budget, fmax(plan->deadline - retex_clock_seconds(), 1e-3)); /* 0 is no limit */
-    code = retex_picture_encode(image, serve_format_extension(plan->format), &params, budget, nthreads, data, bytes, err);
+    const double left = plan->deadline - retex_clock_seconds();
+    retex_budget_set_seconds(budget, fmax(left, 1e-3)); /* 0 would be no limit */
+    code = retex_picture_encode(data, bytes, image, serve_format_extension(plan->format), &params, budget, nthreads,
+                                err);
     retex_budget_close(&budget);
     return code ? (retex_clock_seconds() < plan->deadline ? code : is_late(err)) : RETEX_OK;
 }

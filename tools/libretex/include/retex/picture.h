@@ -44,12 +44,13 @@ int retex_picture_open_memory(RetexPicture **picture, const char *format, int wi
                               const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
 int retex_picture_take(RetexPicture **picture, void **data, size_t *bytes, RetexError *err);
 
-/* The same bytes of an image of 3 channels, made by a process of its own, which is ended when the budget's time is up or
- * it is stopped: RETEX_ELIMIT, as of retex_budget_check. Encoders of other libraries, of AVIF, JPEG XL and WebP, cannot be
- * ended otherwise. Of params, quality and view count; others are RETEX_EUNSUPPORTED. It takes .1 to .3 s to start. */
-int retex_picture_encode(const RetexImage *image, const char *format,
-                         const RetexWriteParams *params /* NULL = defaults */, const RetexBudget *budget,
-                         int nthreads, void **data, size_t *bytes, RetexError *err);
+/* The same bytes of an image of 3 channels, made by a process of its own, which is ended when the budget's time is up
+ * or it is stopped: RETEX_ELIMIT, as of retex_budget_check. Encoders of other libraries, of AVIF, JPEG XL and WebP,
+ * cannot be ended otherwise. Of params, quality and view count; others are RETEX_EUNSUPPORTED. It takes .1 to .3 s to
+ * start. */
+int retex_picture_encode(void **data, size_t *bytes, const RetexImage *image, const char *format,
+                         const RetexWriteParams *params /* NULL = defaults */, const RetexBudget *budget /* or NULL */,
+                         int nthreads /* 0 = all cores */, RetexError *err);
 
 #ifdef __cplusplus
 }
