@@ -54,6 +54,26 @@ room.addEventListener("retex-error", (event) => event.detail.message.trim());
 `, false), ["plain.ts:4 TS2345"]);
 });
 
+test("what is listened to in an effect of React is given back", () => {
+  same(errors("effect.ts", `import { RetexRoom, RetexRoomEvents } from "retex-room";
+declare function useEffect(effect: () => void | (() => void)): void;
+declare const room: RetexRoom;
+useEffect(() => {
+  const onChange = (event: RetexRoomEvents["retex-change"]) => console.log(event.detail.textures);
+  const onPress = (event: KeyboardEvent) => console.log(event.key);
+  room.addEventListener("retex-change", onChange);
+  room.addEventListener("keydown", onPress, { passive: true });
+  return () => {
+    room.removeEventListener("retex-change", onChange);
+    room.removeEventListener("keydown", onPress, true);
+  };
+});
+room.removeEventListener("retex-select", (event: CustomEvent<{ wrong: number }>) => event.detail.wrong);
+document.addEventListener("retex-error", (event) => event.detail.message.trim());
+document.removeEventListener("retex-error", (event) => event.detail.none);
+`, false), ["effect.ts:14 TS2769", "effect.ts:16 TS2339"]);
+});
+
 test("JSX of React", () => {
   same(errors("page.tsx", `import type { RetexRoom } from "retex-room";
 import type { RefObject } from "react";

@@ -108,16 +108,14 @@ export class RetexRoom extends HTMLElement {
   setState(state: Partial<RetexState>): Promise<void>;
   toBlob(type?: string, quality?: number): Promise<Blob | null>;
   select(target: string): void;
-  addEventListener<K extends keyof RetexRoomEvents>(
-    type: K, listener: (event: RetexRoomEvents[K]) => unknown, options?: boolean | AddEventListenerOptions): void;
-  addEventListener(type: string, listener: EventListenerOrEventListenerObject,
-    options?: boolean | AddEventListenerOptions): void;
 }
 
 declare global {
   interface HTMLElementTagNameMap {
     "retex-room": RetexRoom;
   }
+  /** They bubble: the element, those around it and the document have them, to add and to remove. */
+  interface GlobalEventHandlersEventMap extends RetexRoomEvents {}
 }
 
 /** Attributes of the element, for JSX. */
