@@ -410,6 +410,34 @@ static void test_copies(void **state)
         }
 }
 
+/* Of a colour with joints as wide as of a picture of a thousand texels, but in few enough, also where repeats turn. */
+static void test_texels_of_colors(void **state)
+{
+    static const struct {
+        RetexRepeat repeat;
+        double grout;
+        int least;
+    } all[] = {{RETEX_REPEAT_STRAIGHT, 0.1, 500}, {RETEX_REPEAT_STRAIGHT, 0.004, 500},
+               {RETEX_REPEAT_BRICK, 0.1, 500},    {RETEX_REPEAT_HEXAGON, 0.1, 400},
+               {RETEX_REPEAT_BASKET, 0.1, 400},   {RETEX_REPEAT_HERRINGBONE, 0.1, 150}};
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        RetexLayout layout;
+        RetexError err;
+        spec.repeat = all[i].repeat;
+        spec.width[0] = 1.2, spec.width[1] = 0.6;
+        spec.grout = all[i].grout;
+        spec.vary = RETEX_VARY_FLIP;
+        test_must(retex_layout_make(&layout, &spec, 1, 1, &err), &err);
+        assert_in_range(layout.block[1], all[i].least, 1200);
+        assert_in_range((long)layout.width * layout.height, 1, 10 << 20);
+        if (all[i].repeat == RETEX_REPEAT_STRAIGHT) /* a whole number, but for rounding of repeats */
+            assert_true(fabs(layout.grout[0] - rint(layout.grout[0])) < 0.05);
+        retex_layout_free(&layout);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -418,6 +446,7 @@ int main(void)
         cmocka_unit_test(test_colors),    cmocka_unit_test(test_vary),
         cmocka_unit_test(test_seeds),     cmocka_unit_test(test_refused),
         cmocka_unit_test(test_too_large), cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_texels_of_colors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,6 +58,14 @@ test("joints have whole texels, as many as they need", () => {
     same(lay({ repeat: "straight", width: [2, 1], grout, vary: "" }, [8, 8]).joint, joints, String(grout));
 });
 
+test("joints of colours are as sharp as those of pictures, in few enough texels", () => {
+  for (const [repeat, grout, least] of [["straight", 0.1, 500], ["straight", 0.004, 500], ["brick", 0.1, 500], ["hexagon", 0.1, 400], ["basket", 0.1, 400], ["herringbone", 0.1, 150]]) {
+    const { block, size: [width, height], grout: texels } = lay({ repeat, width: [1.2, 0.6], grout, vary: "flip" }, [1, 1]);
+    same([block[repeat === "hexagon" ? 0 : 1] >= least, width * height <= 10 * 2 ** 20], [true, true], `${repeat} ${grout}: ${block} of ${width} x ${height}`);
+    if (repeat === "straight") near(texels[0], Math.round(texels[0]), 0.05, repeat);
+  }
+});
+
 test("hexagons: middles half a pitch apart from row to row, as high as is even", () => {
   for (const [width, grout, image] of [[2, 0, [40, 60]], [2, 0.3, [40, 60]], [1, 0.1, [33, 20]], [3, 1, [7, 9]]]) {
     const { size, block, joint, blocks, period, grout: ideal, hexagon } = lay({ repeat: "hexagon", width: [width, width], grout, vary: "" }, image);

@@ -4,7 +4,7 @@ import { BONDS } from "./edit.js";
 import { HEAD } from "./glsl.js";
 import { parseColor } from "./values.js";
 
-export const MOST_LAID = 2 ** 24, LIBRARY_LAID = 2 ** 26, HEXAGON = Math.sqrt(3) / 2;
+export const MOST_LAID = 2 ** 24, LIBRARY_LAID = 2 ** 26, LIBRARY_LAID_COLOR = 2 ** 23, HEXAGON = Math.sqrt(3) / 2;
 export const rint = (x) => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
 const jointTexels = (grout, texel) => (grout > 0 ? Math.max(1, Math.ceil(grout / texel - 1e-6)) : 0);
 
@@ -95,12 +95,16 @@ export function layoutOf(laid, [width, height], most, texels) {
   if (turned && Math.max(...size) > 256 * short) throw new Error("A repeat that turns is at most 256 times as long as wide.");
   if (laid.grout > short) throw new Error("The grout is wider than a repeat.");
   const plan = (block) => (laid.repeat === "hexagon" ? planHexagons : turned ? planTurned : planRows)(laid, block, size);
+  const isColor = width === 1 && height === 1, longer = Math.max(...size);
   let block = [width, height];
-  if (width === 1 && height === 1 && laid.grout > 0) block = size.map((s) => Math.max(1, rint(s / Math.max(laid.grout / 4, Math.max(...size) / 2048))));
+  if (isColor && laid.grout > 0) {
+    const joint = Math.ceil(Math.max(4, laid.grout * 1024 / longer)); // its texels, so that joints have sharp edges
+    block = size.map((s) => Math.max(1, rint(s / Math.max(laid.grout / joint, longer / 2048))));
+  }
   let layout = plan(block);
-  const share = Math.sqrt(LIBRARY_LAID / (layout.size[0] * layout.size[1]));
-  if (turned && share < 1) layout = plan((block = [width, height].map((x) => Math.max(1, Math.trunc(x * share)))));
-  const counts = laid.vary || laid.tiles ? copiesOf(layout) : [1, 1];
+  const share = Math.sqrt((isColor ? LIBRARY_LAID_COLOR : LIBRARY_LAID) / (layout.size[0] * layout.size[1]));
+  if (turned && share < 1) layout = plan((block = block.map((x) => Math.max(1, Math.trunc(x * share)))));
+  const counts = (laid.vary && !isColor) || laid.tiles ? copiesOf(layout) : [1, 1];
   for (;;) {
     const whole = layout.size.map((s, k) => s * counts[k]), times = Math.min(...whole.map((s) => most / s), Math.sqrt(texels / (whole[0] * whole[1])));
     if (times >= 1) break;

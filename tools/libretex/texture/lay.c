@@ -16,7 +16,9 @@
 #define MOST_BLOCKS 256               /* that differ from each other */
 #define MOST_COPIES 16                /* along each axis */
 #define LEAST_JOINT 4                 /* texels of a joint between colours, which have no texels of their own */
-#define MOST_COLOR_TEXELS 2048        /* a side of a colour's repeat */
+#define LEAST_COLOR_SIDE 1024         /* texels of the longer side of a colour's repeat, for joints with sharp edges */
+#define MOST_COLOR_SIDE 2048          /* of the same, for joints that are narrow */
+#define MOST_COLOR_TEXELS (1L << 23)  /* of colours that turn */
 #define MOST_RATIO 256                /* of the sides of blocks that turn */
 #define MOST_DENOMINATOR 4            /* of that ratio in a herringbone */
 #define RATIO_ERROR 0.005             /* is not seen: then the smaller denominator is taken */
@@ -83,12 +85,14 @@ static void sizes(const RetexTextureSpec *spec, int width, int height, double si
     size[1] = spec->width[1] > 0 ? spec->width[1] : size[0] * height / width;
 }
 
-/* Texels of a repeat of a colour: as many as make its joints sharp. */
+/* Texels of a repeat of a colour: as many as make its joints sharp, of which a joint has a whole number. */
 static void size_color(const RetexTextureSpec *spec, int texels[2])
 {
     double size[2];
     sizes(spec, 1, 1, size);
-    const double longer = fmax(size[0], size[1]), texel = fmax(spec->grout / LEAST_JOINT, longer / MOST_COLOR_TEXELS);
+    const double longer = fmax(size[0], size[1]);
+    const double joint = ceil(fmax(LEAST_JOINT, spec->grout * LEAST_COLOR_SIDE / longer));
+    const double texel = fmax(spec->grout / joint, longer / MOST_COLOR_SIDE);
     for (int axis = 0; axis < 2; axis++)
         texels[axis] = (int)fmax(1, rint(size[axis] / texel));
 }
@@ -274,15 +278,18 @@ int retex_layout_make(RetexLayout *l, const RetexTextureSpec *spec, int width, i
         return retex_fail(err, RETEX_EINVAL, "texture: this repeat is more than %d times as long as wide", MOST_RATIO);
     if (spec->grout > shorter)
         return retex_fail(err, RETEX_EINVAL, "texture: grout is wider than a repeat");
-    if (width == 1 && height == 1 && spec->grout > 0)
+    const int is_color = width == 1 && height == 1;
+    if (is_color && spec->grout > 0)
         size_color(spec, l->block);
+    const int block[2] = {l->block[0], l->block[1]};
     int code = plan(l, spec, size, err);
-    const double share = sqrt((double)MOST_TEXELS / ((double)l->width * l->height));
+    const double share =
+        sqrt((double)(is_color ? MOST_COLOR_TEXELS : MOST_TEXELS) / ((double)l->width * l->height));
     if (!code && turns_blocks(spec) && share < 1) { /* coarser, for many blocks are one image */
-        l->block[0] = (int)fmax(1, width * share), l->block[1] = (int)fmax(1, height * share);
+        l->block[0] = (int)fmax(1, block[0] * share), l->block[1] = (int)fmax(1, block[1] * share);
         code = plan(l, spec, size, err);
     }
-    if (!code && (spec->vary || spec->tiles[0][0]))
+    if (!code && ((spec->vary && !is_color) || spec->tiles[0][0])) /* repeats of one colour do not differ */
         code = copy_blocks(l, err);
     if (!code && (l->block[0] < 1 || l->block[1] < 1 || too_large(l)))
         code = retex_fail(err, RETEX_ELIMIT, "%s: laid so it would have %d x %d texels, which is too much", spec->image,
