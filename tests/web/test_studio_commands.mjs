@@ -91,8 +91,10 @@ test("a look without a target keeps those whose names begin alike", () => {
 
 test("what an import tells, in plain words", () => {
   const lines = ["retex-import: the room is 260 units high: they are taken as centimetres, and become metres; --unit overrides", "retex-import: there is no image `wood.png`",
-    "retex-import: warning: the image `Oak_0-1` cannot be read: no PNG", "retex-import: something new", "retex-import: wrote x/x.pov", ""];
-  same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["The picture “Oak_0-1” cannot be read. Sa", true], ["Something new", false]]);
+    "retex-import: warning: the image `Oak_0-1` cannot be read: no PNG", "retex-import: something new",
+    "retex-import: warning: the picture will be black, or nearly so: the lights of the model are; --sky FILE lights it", "retex-import: wrote x/x.pov", ""];
+  same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["The picture “Oak_0-1” cannot be read. Sa", true], ["Something new", false],
+    ["Next to nothing lights this model: its p", true]]);
   same([isLoss(["retex-import: images are lost; --partial makes the scene without them"]), isLoss(lines)], [true, false]);
 });
 

@@ -56,12 +56,11 @@ static double measure(const SpaceTriangles *t, size_t i, double middle[3], doubl
     return sqrt(squared) / 2;
 }
 
-/* About the radiance of the room's surfaces by those that shine, if half of the light is absorbed at each. */
-static double glow_of(const Import *import)
+/* About the radiance of surfaces by those that shine, if half of the light is absorbed at each. all: their area; near:
+ * how far it is free before what is not within a device. */
+static double glow_of(const Import *import, double all, double near)
 {
-    const Room *room = &import->sense->room;
     const SpaceTriangles *t = space_triangles(import->sense->space);
-    const double floor = room->ninside * room->cell * room->cell, all = 2 * floor + 4 * sqrt(floor) * room->height;
     double power = 0;
     for (size_t i = 0; i < t->ntriangles; i++) {
         const ImportMaterial *material = material_of(import, t->tags[i]);
@@ -69,17 +68,29 @@ static double glow_of(const Import *import)
         if (!material || !(material->radiance > 0))
             continue;
         const double area = measure(t, i, middle, normal);
-        power += (double)material->radiance * area / 2 *
-                 free_sides(import->sense->space, middle, normal, 0.04 * room->height);
+        power += (double)material->radiance * area / 2 * free_sides(import->sense->space, middle, normal, near);
     }
     return all > 0 ? 2 * power / all : 0;
+}
+
+double ceiling_glow(const Import *import)
+{
+    double low[3], high[3];
+    if (!import->sense || !import->sense->space || is_room(import))
+        return INFINITY;
+    space_bounds(import->sense->space, low, high);
+    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return glow_of(import, 2 * (x * y + y * z + z * x), 0.01 * sqrt(x * x + y * y + z * z)) /
+           2; /* once, then it is gone */
 }
 
 int ceiling_emits(const Import *import)
 {
     if (!import->emits || !is_room(import))
         return import->emits;
-    const double glow = glow_of(import);
+    const Room *room = &import->sense->room;
+    const double floor = room->ninside * room->cell * room->cell, all = 2 * floor + 4 * sqrt(floor) * room->height;
+    const double glow = glow_of(import, all, 0.04 * room->height);
     import_tell(import, IMPORT_DETAIL, "by its lamps, the room's surfaces have a radiance of about %.2g", glow);
     return glow >= LEAST_GLOW;
 }

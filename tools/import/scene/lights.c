@@ -182,10 +182,37 @@ static int write_lights(Import *import, FILE *out)
     return any;
 }
 
+/* Of light that there is, and that is in the way of a sky: whether it is next to none. */
+static void tell_black(const Import *import, int any_lights)
+{
+    enum { VISIBLE = 500 }; /* a radiance of 1 / 500 is the seventh of 255 steps to white */
+    int shines = 0;
+    for (int i = 0; i < import->gltf.nlights; i++)
+        shines |=
+            import->gltf.lights[i].color[0] + import->gltf.lights[i].color[1] + import->gltf.lights[i].color[2] > 0;
+    for (unsigned i = 0; i < import->scene->mNumLights && !import->is_gltf; i++)
+        shines |= !is_left_out(import->scene->mLights[i]) && is_bright(&import->scene->mLights[i]->mColorDiffuse);
+    const double glow = import->emits ? ceiling_glow(import) : 0;
+    if ((shines && import->options->lights > 0) || glow * VISIBLE > 1)
+        return;
+    if (any_lights)
+        import_tell(import, IMPORT_WARNING,
+                    "the picture will be black, or nearly so: the lights of the model are; --sky FILE lights it");
+    else
+        import_tell(
+            import, IMPORT_WARNING,
+            "the picture will be black, or nearly so: what shines in the model is too faint or too small, what it "
+            "lights is about %.1g of white; --sky FILE lights it",
+            glow);
+}
+
 int lights_write(Import *import, FILE *out, RetexError *err)
 {
     fprintf(out, "// ---- light ----\n\n");
     const int any =
         import->is_gltf ? gltf_lights_write(import, import->options->lights, out) : write_lights(import, out);
-    return write_sky(import, out, any || ceiling_emits(import), err);
+    const int has_light = any || ceiling_emits(import);
+    if (has_light && !import->options->sky)
+        tell_black(import, any);
+    return write_sky(import, out, has_light, err);
 }

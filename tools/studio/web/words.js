@@ -12,6 +12,7 @@ const IMPORT = [
   [/^no camera in the model/, "The file has no camera: the whole model is in the picture. Move on in the step View."],
   [/^camera (\d+) of (\d+) is used/, "The file has $2 cameras; number $1 is used."],
   [/^no light in the model, and no opening/, "The file has no light, and nothing lets light in: a lamp was put below the ceiling."],
+  [/^the picture will be black, or nearly so/, "Next to nothing lights this model: its pictures will be black, or nearly so. Give it a light in the program that made it, and open it again.", true],
   [/soft sky lights it/, "The file has no light: a soft sky lights it."],
   [/lie on others of the same corners/, "Some faces were there twice; one of each is kept."],
   [/are? where the same one is/, "Some objects were there twice; one of each is kept."],

@@ -1,0 +1,57 @@
+"""Models for import_black.t: a floor of 10 x 10 m with a square above it that shines, of some size and strength, or with a
+lamp; and the mean radiance of a picture."""
+import json
+import struct
+import sys
+
+import numpy as np
+import OpenImageIO as oiio
+
+
+def square(size, height, up):
+    """Its corners, in an order by which it faces up or down."""
+    h = size / 2
+    corners = [(-h, height, h), (h, height, h), (h, height, -h), (-h, height, -h)]
+    return b''.join(struct.pack('<3f', *c) for c in (corners if up else corners[::-1]))
+
+
+def write(name, size=None, strength=0, intensity=None):
+    data = square(10, 0, True) + square(size or 1, 2, False) + struct.pack('<6H', 0, 1, 2, 0, 2, 3)
+    nodes = [{'mesh': 0}]
+    model = {'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': nodes,
+             'buffers': [{'byteLength': len(data), 'uri': name + '.bin'}],
+             'bufferViews': [{'buffer': 0, 'byteOffset': 0, 'byteLength': 48},
+                             {'buffer': 0, 'byteOffset': 48, 'byteLength': 48},
+                             {'buffer': 0, 'byteOffset': 96, 'byteLength': 12}],
+             'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3'},
+                           {'bufferView': 1, 'componentType': 5126, 'count': 4, 'type': 'VEC3'},
+                           {'bufferView': 2, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}],
+             'materials': [{'name': 'Floor', 'pbrMetallicRoughness': {'baseColorFactor': [.5, .5, .5, 1]}},
+                           {'name': 'Shines', 'emissiveFactor': [1, 1, 1],
+                            'extensions': {'KHR_materials_emissive_strength': {'emissiveStrength': strength}}}],
+             'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 2, 'material': 0}]},
+                        {'primitives': [{'attributes': {'POSITION': 1}, 'indices': 2, 'material': 1}]}]}
+    used = ['KHR_materials_emissive_strength']
+    if size:
+        nodes.append({'mesh': 1})
+    if intensity is not None:
+        used.append('KHR_lights_punctual')
+        nodes.append({'translation': [0, 2, 0], 'extensions': {'KHR_lights_punctual': {'light': 0}}})
+        model['extensions'] = {'KHR_lights_punctual': {'lights': [{'type': 'point', 'intensity': intensity}]}}
+    model['scenes'][0]['nodes'] = list(range(len(nodes)))
+    model['extensionsUsed'] = used
+    with open(name + '.bin', 'wb') as out:
+        out.write(data)
+    with open(name + '.gltf', 'w', encoding='ascii') as out:
+        json.dump(model, out)
+
+
+if len(sys.argv) > 1:
+    mean = np.mean(oiio.ImageBuf(sys.argv[1]).get_pixels(oiio.FLOAT)[..., :3])
+    print('black' if mean < 1 / 500 else 'light' if mean > 1 / 100 else mean)
+else:
+    write('speck', .02, 3)
+    write('panel', 2, 20)
+    write('out', intensity=0)
+    write('lamp', intensity=683 * 20)
+    write('label', 1, .5)
