@@ -215,7 +215,10 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
     print_clusters(out, set);
     if (info.unit != 1)
         fprintf(out, "scene unit     %g m\n", info.unit);
-    fprintf(out, "max depth      %d segments\n", info.max_depth);
+    fprintf(out, "max depth      %d segments", info.max_depth);
+    if (info.depth_cut >= 5e-7) /* less would be 0.0000 */
+        fprintf(out, ", without %.4f%% of the light", 100 * info.depth_cut);
+    fprintf(out, "\n");
     if (info.scene[0])
         fprintf(out, "scene          %s\n", plain(text, info.scene));
     if (info.generator[0])

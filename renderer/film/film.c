@@ -157,6 +157,11 @@ void film_add_light(FilmPixel *p, const double light[3])
     p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
 }
 
+void film_add_cut(FilmPixel *p, double cut)
+{
+    p->light.cut += cut;
+}
+
 void film_hit_limits(const FilmPixel *p, int *orders, int *most_hits)
 {
     *orders = p->film->params.orders;
@@ -251,6 +256,7 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
     RetexBandStats *s = &state->stats;
     for (int k = band * tiles; k < (band + 1) * tiles; k++) {
         s->total += film->tiles[k].total, s->folded += film->tiles[k].folded;
+        s->cut += film->tiles[k].cut;
         s->total_white += film->tiles[k].total_white, s->folded_white += film->tiles[k].folded_white;
     }
     memcpy(s->uv_low, state->range.low, sizeof s->uv_low);

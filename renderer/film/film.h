@@ -20,6 +20,8 @@ void film_drop(FilmPixel *pixel);                             /* count a sample 
 void film_add_light(FilmPixel *pixel, const double light[3]); /* the sum of one path's contributions */
 /* Of films with a split: how many hits on one target, and on all together, a path may keep apart. */
 void film_hit_limits(const FilmPixel *pixel, int *orders, int *most_hits);
+/* Luminance that the maximum depth left out of the path. */
+void film_add_cut(FilmPixel *pixel, double cut);
 /* End a path. hits: its hits on targets, which films with a split read; within film_hit_limits, from the camera to any
  * of them. */
 void film_path_end(FilmPixel *pixel, const TargetTree *hits);

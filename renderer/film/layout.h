@@ -16,7 +16,7 @@
 
 /* Luminance, summed; as of RetexBandStats. */
 typedef struct LightSums {
-    double total, folded, total_white, folded_white;
+    double total, folded, total_white, folded_white, cut;
 } LightSums;
 
 /* Sums over a pixel's samples so far, by signal: light that no target's texture multiplies (the beauty, where there is

@@ -40,6 +40,7 @@ typedef struct PathContext {
     int has_no_shadow; /* some primitive throws no shadow: shadow rays and paths see different primitives */
     int has_air;       /* the scene has fog or rainbows */
     Media camera;      /* what the camera is in */
+    int is_beyond;     /* paths go on beyond the maximum depth, only to tell how much light it leaves out */
     double reach;      /* how far media of the air that vary from place to place are looked at */
     FILE *trace;       /* print every step, or NULL */
 } PathContext;
@@ -57,6 +58,7 @@ typedef struct FirstHits {
 /* What a path brought. */
 typedef struct PathResult {
     double light[3]; /* the sum of its contributions */
+    double cut;      /* luminance that the maximum depth left out, an estimate */
     TargetTree hits; /* of sets; it borrows memory of the worker, until that traces the next paths */
 } PathResult;
 

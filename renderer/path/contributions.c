@@ -46,7 +46,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->media = c->camera, path->media_weight = splat(1), path->kind = RAY_CAMERA;
     path->specular = 0, path->light_group = NULL;
     path->key = sampler->key, path->sample = sampler->sample;
-    path->light[0] = path->light[1] = path->light[2] = 0;
+    path->light[0] = path->light[1] = path->light[2] = path->cut = 0;
     split_start(&w->split, &path->split, (int)(path->control - w->controls));
     if (w->control)
         control_start(path->control, c->nvariants);
@@ -100,12 +100,13 @@ void path_contribute(PathWorker *w, Path *path, const Contribution *c)
     if (context->split ? split_add(&w->split, &path->split, c) : rgb_is_finite(rgb_of4(light)))
         for (int k = 0; k < 3; k++)
             path->light[k] += (double)shown[k];
-    else
+    else if (!context->is_beyond)
         film_drop(w->pixel);
 }
 
 void path_end(PathWorker *w, const PathResult *result)
 {
     film_add_light(w->pixel, result->light);
+    film_add_cut(w->pixel, result->cut);
     film_path_end(w->pixel, &result->hits);
 }

@@ -35,6 +35,7 @@ typedef struct Path {
     Media media;
     Float4 media_weight;         /* what media did to throughput, its mean 1: scattering is sampled by it */
     double light[3];             /* sum of its contributions */
+    double cut;                  /* luminance of those that it would have beyond the maximum depth */
     SplitPath split;             /* in sets */
     ControlPath *control;        /* in variants */
     FirstHits *first_hits;       /* of its pixel */

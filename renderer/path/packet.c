@@ -343,6 +343,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
     for (int i = 0; i < count; i++) {
         const Path *path = &wave.paths[i];
         memcpy(results[i].light, path->light, sizeof path->light);
+        results[i].cut = path->cut;
         if (w->context->split)
             results[i].hits = path->split.tree;
         if (w->control)

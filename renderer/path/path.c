@@ -4,6 +4,7 @@
  * trace_path tells it from top to bottom, for one path. Most paths go by packet.c, which takes the same steps for many
  * paths at once. */
 #include <string.h>
+#include <retex/color.h>
 #include "light/environment.h"
 #include "light/source.h"
 #include "path/media.h"
@@ -206,6 +207,40 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
     }
 }
 
+#define BEYOND_SEGMENTS 240 /* that paths are followed at most beyond the maximum depth */
+#define BEYOND_EVERY 4      /* so many of them are one that is followed: it is not worth more time */
+
+/* A path ends at its last vertex because it has no segment left: see how much light it would have found, by going on
+ * with other numbers and on its own throughput, whose luminance is 1 to begin with. Nothing of it gets into the
+ * picture. */
+static void follow_beyond(PathWorker *w, Path *path, const Vertex *last, Ray ray)
+{
+    const PathContext *context = w->context;
+    PathContext beyond = *context;
+    ControlPixel *control = w->control;
+    const long segments = w->segments, shadow_rays = w->shadow_rays;
+    const float scale = luminance4(path->beta) * BEYOND_EVERY;
+    Path on = *path;
+    Vertex v = *last;
+    BsdfSample next;
+    if (context->is_beyond || hash_pair(path->key, path->sample) % BEYOND_EVERY || !(scale > 0) || !isfinite(scale))
+        return;
+    on.beta *= splat(BEYOND_EVERY / scale), on.key = hash_pair(path->key, 0x6375742e);
+    on.light[0] = on.light[1] = on.light[2] = 0;
+    v.is_last = 0;
+    beyond.is_beyond = 1, beyond.max_depth += BEYOND_SEGMENTS;
+    beyond.split = beyond.places = 0, beyond.nvariants = 1, beyond.trace = NULL;
+    w->context = &beyond, w->control = NULL;
+    sample_direct_light(w, &on, &v);
+    add_direct_light(w, &on, &v);
+    if (scatter(w, &on, &v, &next, &ray))
+        trace_path(w, &on, ray);
+    w->context = context, w->control = control;
+    w->segments = segments, w->shadow_rays = shadow_rays;
+    const double cut = (double)scale * retex_luminance(on.light[0], on.light[1], on.light[2]);
+    path->cut += isfinite(cut) ? cut : 0;
+}
+
 int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *ray)
 {
     const Shading *s = &v->s;
@@ -213,8 +248,10 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     FinishFactor finishes[FINISHES_MAX], variants[VARIANTS_MAX];
     float pdf;
     path->leaving = 0;
-    if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts))
+    if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts)) {
+        follow_beyond(w, path, v, *ray);
         return 0; /* no segment is left, and nothing passes straight */
+    }
     if (!sample_direction(v, next, weights, &pdf))
         return 0;
     /* By the BSDF's own weight: the guide sends more paths to where light is expected, which must not end them. */
@@ -263,7 +300,7 @@ int survives_roulette(PathWorker *w, Path *path, float u)
 {
     if (path->segments <= ROULETTE_START)
         return 1;
-    float survival = at_most(path->beta_neutral, 1);
+    float survival = at_most(w->context->is_beyond ? luminance4(path->beta) : path->beta_neutral, 1);
     if (u >= survival)
         return 0;
     path_scale(w, path, rgb_grey(1 / survival));

@@ -320,7 +320,7 @@ void test_make_footprints(RetexSet *set)
 {
     uint32_t seed = 1;
     snprintf(set->layout, sizeof set->layout, "footprints");
-    set->folded_white = 0.125;
+    set->folded_white = 0.125, set->depth_cut = 0.0625;
     for (int t = 0; t < set->ntargets; t++)
         set->targets[t].uv_scale[0] = 0.1 + t, set->targets[t].uv_scale[1] = 1e6;
     for (int i = 0; i < set->nfootprints; i++) {

@@ -96,7 +96,7 @@ void expect_equal_sets(const RetexSet *a, const RetexSet *b)
     assert_true(a->width == b->width && a->height == b->height && a->orders == b->orders && a->spp == b->spp);
     assert_true(a->max_depth == b->max_depth && a->seed == b->seed && a->strict_paper == b->strict_paper);
     assert_int_equal(a->id, b->id);
-    assert_true(a->folded == b->folded && a->folded_white == b->folded_white);
+    assert_true(a->folded == b->folded && a->folded_white == b->folded_white && a->depth_cut == b->depth_cut);
     assert_string_equal(a->layout, b->layout);
     assert_string_equal(a->filter, b->filter);
     assert_string_equal(a->scene, b->scene);

@@ -286,13 +286,14 @@ static void statistics_of_bands_add_up(void **state)
     bands[0].samples = 300, bands[1].samples = 241; /* of 80 pixels: 6.76 */
     bands[0].total = 3, bands[1].total = 5, bands[0].folded = 0.5, bands[1].folded = 1.5;
     bands[0].total_white = 12, bands[1].total_white = 4, bands[0].folded_white = 1, bands[1].folded_white = 3;
+    bands[0].cut = 0.5, bands[1].cut = 1.5;
     bands[0].coverage[1] = 1, bands[1].coverage[1] = 3;
     bands[0].albedo[1][0] = 0.5, bands[1].albedo[1][0] = 0.5, bands[1].albedo[1][2] = 3;
     bands[0].uv_low[1][0] = -2, bands[0].uv_high[1][0] = 1, bands[1].uv_low[1][0] = -1, bands[1].uv_high[1][0] = 4;
     bands[1].uv_low[1][1] = 0.25, bands[1].uv_high[1][1] = 0.5;
     retex_band_stats_finish(set, bands, 2);
     assert_int_equal(set->spp, 7);
-    assert_true(set->folded == 0.25 && set->folded_white == 0.25);
+    assert_true(set->folded == 0.25 && set->folded_white == 0.25 && set->depth_cut == 0.2);
     const RetexTarget *t = &set->targets[1], *unseen = &set->targets[0];
     assert_true(t->mean_albedo[0] == 0.25f && t->mean_albedo[1] == 0 && t->mean_albedo[2] == 0.75f);
     assert_true(t->uv_min[0] == -2 && t->uv_max[0] == 4 && t->uv_min[1] == 0.25 && t->uv_max[1] == 0.5);

@@ -37,16 +37,18 @@ static void finish_target(RetexTarget *target, int t, const RetexBandStats *band
 
 void retex_band_stats_finish(RetexSet *set, const RetexBandStats *bands, int nbands)
 {
-    double total = 0, folded = 0, total_white = 0, folded_white = 0, samples = 0;
+    double total = 0, folded = 0, total_white = 0, folded_white = 0, cut = 0, samples = 0;
 
     for (int b = 0; b < nbands; b++) {
         samples += (double)bands[b].samples;
         total += bands[b].total, folded += bands[b].folded;
         total_white += bands[b].total_white, folded_white += bands[b].folded_white;
+        cut += bands[b].cut;
     }
     if (samples > 0)
         set->spp = (int)(samples / ((double)set->width * set->height) + 0.5);
     set->folded = total > 0 ? folded / total : 0;
+    set->depth_cut = total + cut > 0 ? cut / (total + cut) : 0;
     set->folded_white = total_white > 0 ? folded_white / total_white : 0;
     for (int t = 0; t < set->ntargets; t++)
         finish_target(&set->targets[t], t, bands, nbands);

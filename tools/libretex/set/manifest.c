@@ -266,6 +266,8 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "orders", json_integer(set->orders));
     retex_json_put(root, "spp", json_integer(set->spp));
     retex_json_put(root, "max_depth", json_integer(set->max_depth));
+    if (set->depth_cut != 0)
+        retex_json_put(root, "depth_cut", real(set->depth_cut, finite));
     retex_json_put(root, "seed", json_integer(set->seed));
     retex_json_put(root, "id", identity(set->id));
     retex_json_put(root, "folded", real(set->folded, finite));

@@ -220,6 +220,8 @@ typedef struct RetexSetInfo {
     float further_ratio[3]; /* of light with one more hit to light without it, textures left out; 0..2 */
     double unit;            /* metres of a scene unit, above 0, for lengths of textures that have a unit; 1 where the
                                scene did not say */
+    double depth_cut;       /* share of the light, of what there is and what max_depth left out, that was left out: an
+                               estimate; 0: none, or not known */
 } RetexSetInfo;
 
 /* Fill what info->size says that the caller knows. */

@@ -15,6 +15,7 @@ struct RetexBandStats {
     /* Sums of luminance: of all light, and of the light whose hits beyond the set's orders kept their original albedo;
      * as rendered, and as with white targets. */
     double total, folded, total_white, folded_white;
+    double cut; /* the same of the light that the maximum depth left out */
     double uv_low[RETEX_MAX_TARGETS][2], uv_high[RETEX_MAX_TARGETS][2]; /* by target; inf, -inf: the target was not
                                                                            met */
     double albedo[RETEX_MAX_TARGETS][3], coverage[RETEX_MAX_TARGETS];   /* sum of original albedo times coverage, sum
@@ -25,8 +26,8 @@ struct RetexBandStats {
 
 void retex_band_stats_reset(RetexBandStats *stats); /* to those of an empty band */
 
-/* Fill spp (the mean, for the set's size), folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from
- * all bands, from the top. */
+/* Fill spp (the mean, for the set's size), folded, folded_white, depth_cut, and uv_min, uv_max and mean_albedo of the
+ * targets from all bands, from the top. */
 void retex_band_stats_finish(RetexSet *set, const RetexBandStats *bands, int nbands);
 
 #ifdef __cplusplus
