@@ -621,12 +621,18 @@ static int make_rows(void *context, const RetexCompactLight *light, int first, R
 
 static int end_kind(const Compaction *work, int number, RetexError *err)
 {
-    const RetexCompactKind *kind = &work->light->kinds[number];
+    const RetexCompactLight *light = work->light;
+    const RetexCompactKind *kind = &light->kinds[number];
+    const RetexCompactMixed mixed = work->scales->mixed[number];
+    const RetexImage *sums = cached_sums(work, number, err);
     RetexImage *gains = cached_gains(work, number, err);
     int code = retex_compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
     for (int k = 0; k < term_count(work, number) && !code; k++)
-        if (gains[k].pixels)
-            code = retex_compact_gain_end(&gains[k], err);
+        if (gains[k].pixels) {
+            const int lamps = retex_compact_term_lamps(light, kind, mixed, k);
+            code = retex_compact_gain_end(&gains[k], &sums[light->lamps[lamps].alone ? light->all : lamps],
+                                          gain_scale(work, number, k), err);
+        }
     return code;
 }
 

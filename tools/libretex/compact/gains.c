@@ -7,6 +7,7 @@
 
 #include <retex/parallel.h>
 
+#include "retexture/enlarge.h"
 #include "set/set.h"
 
 typedef struct Source {
@@ -220,9 +221,39 @@ int retex_compact_gain_rows(RetexImage *gain, const RetexCompactLight *light, co
     return code;
 }
 
-int retex_compact_gain_end(RetexImage *gain, RetexError *err)
+/* All light that has a gain: blocks times their shares, or the light times the enlarged gain. */
+static int sum_of_gain(double sum[3], const RetexImage *gain, const RetexImage *light, int scale, int enlarges,
+                       RetexError *err)
 {
-    return fill_holes(gain, err);
+    float *row = malloc(sizeof *row * 3 * (size_t)light->width);
+    sum[0] = sum[1] = sum[2] = 0;
+    for (int y = 0; y < light->height && row; y++) {
+        const float *of = light->pixels + retex_image_index(light, 0, y);
+        const float *blocks = gain->pixels + retex_image_index(gain, 0, y / scale);
+        if (enlarges)
+            retex_enlarge_rows(gain, scale, light->width, y, y + 1, row);
+        for (int i = 0; i < 3 * light->width; i++)
+            sum[i % 3] +=
+                (double)of[i] * (enlarges ? (double)row[i] : fmax((double)blocks[3 * (i / 3 / scale) + i % 3], 0));
+    }
+    free(row);
+    return row ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
+}
+
+/* Enlarging moves light from block to block; the mean stays. */
+int retex_compact_gain_end(RetexImage *gain, const RetexImage *sum, int scale, RetexError *err)
+{
+    double wanted[3], made[3];
+    int code = sum_of_gain(wanted, gain, sum, scale, 0, err);
+    if (!code)
+        code = fill_holes(gain, err);
+    if (code || scale == 1)
+        return code;
+    code = sum_of_gain(made, gain, sum, scale, 1, err);
+    for (size_t i = 0; i < retex_image_index(gain, 0, gain->height) && !code; i++)
+        if (made[i % 3] > 0)
+            gain->pixels[i] = (float)((double)gain->pixels[i] * wanted[i % 3] / made[i % 3]);
+    return code;
 }
 
 int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
@@ -232,7 +263,7 @@ int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, co
     int code = retex_compact_gain_begin(gain, light, scale, err);
     if (!code)
         code = retex_compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
-    return code ? code : retex_compact_gain_end(gain, err);
+    return code ? code : retex_compact_gain_end(gain, sum, scale, err);
 }
 
 int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImage *all, int scale, int nthreads,
@@ -247,5 +278,5 @@ int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImag
     int code = retex_compact_gain_begin(share, &light, scale, err);
     if (!code)
         retex_parallel(nthreads, share->height, gain_row, &work);
-    return code ? code : retex_compact_gain_end(share, err);
+    return code ? code : retex_compact_gain_end(share, all, scale, err);
 }

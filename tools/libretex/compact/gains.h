@@ -34,6 +34,6 @@ int retex_compact_gain_begin(RetexImage *gain, const RetexCompactLight *light, i
 int retex_compact_gain_rows(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int first,
                             int nthreads, RetexError *err);
-int retex_compact_gain_end(RetexImage *gain, RetexError *err);
+int retex_compact_gain_end(RetexImage *gain, const RetexImage *sum, int scale, RetexError *err);
 
 #endif
