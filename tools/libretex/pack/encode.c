@@ -13,7 +13,7 @@
 #include "retexture/enlarge.h"
 #include "set/set.h"
 
-#define BALANCE_MOST 2 /* times a mean changes at most */
+#define BALANCE_MOST 1.1 /* times a mean is changed at most; where that is not enough, steps become finer */
 
 static const int EFFORT = 8;                      /* of blosc's zstd */
 static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a slice that this codec cannot encode */
@@ -108,8 +108,8 @@ static int decode_strip(RetexImage *image, RetexPackJpegDecoder *decoder, const 
         return no_memory(err);
     memcpy(file, item->jpeg.data, header);
     memcpy(file + header, item->slices[1 + strip], bytes);
-    int code = retex_pack_jpeg_open_strip(decoder, file, header, header + bytes, p->width, rows, p->channels, &p->curve,
-                                          err);
+    int code =
+        retex_pack_jpeg_open_strip(decoder, file, header, header + bytes, p->width, rows, p->channels, &p->curve, err);
     free(file);
     for (int row = 0; row * RETEX_PACK_BLOCK_ROWS < rows && !code; row++)
         code = retex_pack_jpeg_decode_blocks(
@@ -151,23 +151,39 @@ static int sum_light(double sum[3], const RetexImage *light /* or NULL */, const
     return row ? RETEX_OK : no_memory(err);
 }
 
-/* light: of a gain the item of its light; of light the item itself. */
-static int restore_mean(RetexPackItem *item, const RetexPackItem *light, RetexError *err)
+static int is_balanced(const double balance[3])
+{
+    int balanced = 1;
+    for (int c = 0; c < 3; c++)
+        balanced = balanced && balance[c] <= BALANCE_MOST && balance[c] >= 1 / BALANCE_MOST;
+    return balanced;
+}
+
+/* light: of a gain the item of its light; of light the item itself. *finer: 1 if steps are too coarse. */
+static int restore_mean(RetexPackItem *item, const RetexPackItem *light, int *finer, RetexError *err)
 {
     const int is_gain = light != item;
     RetexPackCurve *curve = &item->packed->curve;
     RetexImage made = {0};
     double wanted[3], is[3];
+    memset(curve->balance, 0, sizeof curve->balance);
     int code = decode(&made, item, err);
     if (!code)
         code = sum_light(wanted, is_gain ? &light->part->image : NULL, &item->part->image, err);
     if (!code)
-        code = sum_light(is, !is_gain ? NULL : light->decoded.pixels ? &light->decoded : &light->part->image, &made, err);
+        code = sum_light(is,
+                         !is_gain                ? NULL
+                         : light->decoded.pixels ? &light->decoded
+                                                 : &light->part->image,
+                         &made, err);
     for (int c = 0; c < 3 && !code; c++)
-        curve->balance[c] =
-            is[c] > 0 && wanted[c] > 0 ? fmin(fmax(wanted[c] / is[c], 1.0 / BALANCE_MOST), BALANCE_MOST) : 1;
+        curve->balance[c] = is[c] > 0 && wanted[c] > 0 ? wanted[c] / is[c] : wanted[c] > 0 ? INFINITY : 1;
+    *finer = !code && !is_balanced(curve->balance) && item->packed->jpeg_step >= 2;
+    for (int c = 0; c < 3 && !code; c++)
+        curve->balance[c] = isfinite(curve->balance[c]) ? curve->balance[c] : 1;
     for (size_t i = 0; i < retex_image_index(&made, 0, made.height) && !code && !is_gain; i++)
         made.pixels[i] *= (float)curve->balance[i % 3];
+    retex_image_free(&item->decoded);
     if (!code && !is_gain)
         item->decoded = made;
     else
@@ -195,20 +211,16 @@ static int has_black(const RetexImage *im)
     return 0;
 }
 
-/* Encode a part as JPEG. The picture (part 0) is for viewers only: it is clipped at white and has no mask. light: see
- * restore_mean, or NULL. */
-static int encode_jpeg(RetexPackItem *item, int is_picture, const RetexPackItem *light, RetexError *err)
+/* Encode levels, and find the slices. */
+static int encode_levels(RetexPackItem *item, int is_picture, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
     RetexPackPart *p = item->packed;
-    p->masked = !is_picture && has_black(im);
-    int code = retex_pack_part_slices(p, err);
-    item->slices = calloc((size_t)p->nslices + 1, sizeof *item->slices);
     float *levels = levels_of(im, &p->curve, is_picture ? 255 : INFINITY);
-    if (!code && (!item->slices || !levels))
-        code = no_memory(err);
+    int code = levels ? RETEX_OK : no_memory(err);
     if (!code && p->masked)
         retex_pack_fill_black(levels, im);
+    retex_pack_jpeg_free(&item->jpeg);
     if (!code)
         code = retex_pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
     free(levels);
@@ -218,9 +230,30 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, const RetexPackItem 
         p->bytes[k] = (uint32_t)item->jpeg.slice_bytes[k];
         at += item->jpeg.slice_bytes[k];
     }
+    return code;
+}
+
+/* Encode a part as JPEG. The picture (part 0) is for viewers only: it is clipped at white and has no mask. light: see
+ * restore_mean, or NULL. */
+static int encode_jpeg(RetexPackItem *item, int is_picture, const RetexPackItem *light, RetexError *err)
+{
+    const RetexImage *im = &item->part->image;
+    RetexPackPart *p = item->packed;
+    p->masked = !is_picture && has_black(im);
+    int code = retex_pack_part_slices(p, err);
+    item->slices = calloc((size_t)p->nslices + 1, sizeof *item->slices);
+    if (!code && !item->slices)
+        code = no_memory(err);
+    for (int finer = 1; finer && !code;) {
+        finer = 0;
+        code = encode_levels(item, is_picture, err);
+        if (!code && light && im->channels == 3)
+            code = restore_mean(item, light, &finer, err);
+        p->jpeg_step /= finer ? 2 : 1;
+    }
     for (int strip = 0; !code && p->masked && strip < p->nstrips; strip++)
         code = encode_mask_strip(item, strip, err);
-    return code || !light || im->channels != 3 ? code : restore_mean(item, light, err);
+    return code;
 }
 
 /* --- planes --- */
