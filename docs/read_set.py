@@ -2,10 +2,8 @@
 """Reads a set of retex, or a stream with samples, and makes its picture: retex-set(5) as a program.
 
     read_set.py SET.exr PICTURE.pfm [Floor=0.8,0.2,0.1] [Wall=oak.png] [finish:Floor=polished] [light:Lamp=1.2,1,0.8]
-
-A colour is scene-linear, an image is laid once on each unit of u and v, and a lamp takes a new value. It is made to be
-read: it holds the whole set, and looks textures up at many points of each footprint. It needs python3-openimageio and
-python3-numpy."""
+Colours are scene-linear, an image is laid once on each unit of u and v, a lamp takes a new value. Made to be read, it
+holds the whole set, and looks textures up at many points of each footprint. Needs python3-openimageio, -numpy."""
 import functools
 import json
 import sys
@@ -72,10 +70,9 @@ def with_map(texels, weights):
     """A texture with a map, whose texels are weights of finishes: texels times weight, and weight alone, by finish."""
     height, width = np.maximum(texels.shape[:2], weights.shape[:2])
     u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (np.arange(height) + 0.5) / height)
-    texels, weights, one = look_up(texels, u, v), look_up(weights, u, v), np.ones((height, width, 4))
-    times = lambda of, k: np.dstack([of[:, :, :3] * weights[:, :, k:k + 1], of[:, :, 3:]])
-    return {"color": texels, "gate": [times(one, k) for k in range(weights.shape[2])],
-            **{k: times(texels, k) for k in range(weights.shape[2])}}
+    color, alpha, weights = *np.split(look_up(texels, u, v), [3], axis=2), look_up(weights, u, v)
+    products = {k: np.dstack([color * weights[:, :, k:k + 1], alpha]) for k in range(weights.shape[2])}
+    return {"color": texels, "gate": np.dstack([weights * alpha, alpha]), **products}
 
 
 class Picture:
@@ -84,18 +81,14 @@ class Picture:
     def __init__(self, path, textures={}, finishes={}, lights={}):
         self.m, self.parts = read_file(path)
         self.targets, self.footprints = self.m["targets"], self.m["footprints"]
-        self.shares = {("footprint", f): [(f, None)] for f in range(len(self.footprints))}
-        for i, mixture in enumerate(self.m["mixtures"]):
-            self.shares["mixture", i] = [(share["footprint"], share["weight"]) for share in mixture]
         self.size, self.samples = (self.m["height"], self.m["width"]), {}
         for f, image in ((f, i) for f, i in enumerate(self.m.get("samples", {}).get("images", [])) if i["part"]):
             key = image.get("footprint", f), image.get("finish", "color")
             self.samples[("gate", image["target"]) if key[0] < 0 else key] = self.parts[image["part"]["name"]]
         self.textures = {t: textures[of["name"]] for t, of in enumerate(self.targets) if of["name"] in textures}
-        self.mapped = {t for t in range(len(self.targets))
-                       if ("gate", t) in self.samples or "gate" in self.textures.get(t, {})}
-        self.edited = {footprint["target"] for f, footprint in enumerate(self.footprints)
-                       if footprint["target"] in self.textures or (f, "color") in self.samples}
+        self.mapped = {t for t in range(8) if ("gate", t) in self.samples or "gate" in self.textures.get(t, {})}
+        self.edited = {f["target"] for i, f in enumerate(self.footprints) if (i, "color") in self.samples}
+        self.edited |= {f["target"] for f in self.footprints if f["target"] in self.textures}
         self.finish = [t["finishes"].index(finishes[t["name"]]) + 1 if t["name"] in finishes else t.get("finish", 0)
                        for t in self.targets]
         self.parameters = {p["name"]: p for p in self.m["parameters"]}
@@ -104,34 +97,40 @@ class Picture:
 
     def value_of(self, p, lights):
         if known("kind of parameter", p["kind"]) == "correction":
-            return self.correction_weight() * (p["target"] in self.edited)
+            m, n = len(self.edited), len(self.targets)
+            return (p["target"] in self.edited) * ((n - m) / (m * (n - 1)) if m > 1 else 1)
         if "finishes" not in p:
             return lights.get(p["name"], p["value"])
         lamps = {q["lamp"]: q["value"] for q in self.parameters.values() if "lamp" in q and not any(q["finishes"])}
         value = lights.get(p["lamp"], lamps[p["lamp"]]) if p["lamp"] else [1, 1, 1]
         return np.array(value) * all(t in self.mapped or k in (0, self.finish[t]) for t, k in enumerate(p["finishes"]))
 
-    def correction_weight(self):
-        edited, targets = len(self.edited), len(self.targets)
-        return (targets - edited) / (edited * (targets - 1)) if edited > 1 else edited
-
     def make(self):
         """The picture: height x width x 3."""
         terms, lamps = self.m["terms"], [p for p in self.m["parameters"] if p["kind"] == "color"]
         roles = {known("role", term["role"]) for term in terms}
-        differ = lambda key: any((self.values[p["name"]] != p.get(key, p["value"])).any() for p in lamps)
-        if not terms or "picture" in roles and not self.edited and not differ("value"):
+        changed = any((self.values[p["name"]] != p["value"]).any() for p in lamps)
+        if not terms or "picture" in roles and not self.edited and not changed:
             return self.parts[self.m["parts"][0]["name"]]
-        relit = "lamp" in roles and (bool(self.mapped) or differ("kept"))
-        used = [term for term in terms if term["role"] not in ("picture", "lamp_picture") and relit == any(
-            "lamp" in roles and self.parameters.get(f.get("parameter")) in lamps for f in term["factors"])]
-        if relit and "lamp_picture" in roles and not self.edited:
-            used = [term for term in terms if term["role"] == "lamp_picture"]
-        picture = sum(map(self.make_term, used), np.zeros(self.size + (3,)))
+        if "lamp_picture" in roles and not self.edited and changed:
+            return sum((self.make_term(term, 1) for term in terms if term["role"] == "lamp_picture"))
+        lamps, picture = lamps if "lamp" in roles else [], np.zeros(self.size + (3,))
+        common = self.take_common(lamps) if lamps else 1
+        for term in (term for term in terms if term["role"] not in ("picture", "lamp_picture")):
+            is_by_lamp = any(self.parameters.get(factor.get("parameter")) in lamps for factor in term["factors"])
+            picture = picture + self.make_term(term, 1 if is_by_lamp else common)
         return np.maximum(picture, 0) if any("normal_tilt" in self.targets[t] for t in self.mapped) else picture
 
-    def make_term(self, term):
-        weight = np.prod([self.values[f["parameter"]] for f in term["factors"] if "parameter" in f], axis=0)
+    def take_common(self, lamps):
+        """What all lamps have in common comes with all light, and is taken from each of them."""
+        kept = {p["name"]: np.array(p.get("kept", p["value"])) for p in lamps}
+        least = np.min([np.where(k > 0, self.values[n] / np.maximum(k, 1e-30), np.inf) for n, k in kept.items()], 0)
+        common = np.where(np.isinf(least), 1, least) * (not self.mapped)
+        self.values.update({name: np.maximum(self.values[name] - common * k, 0) for name, k in kept.items()})
+        return common
+
+    def make_term(self, term, weight):
+        weight = weight * np.prod([self.values[f["parameter"]] for f in term["factors"] if "parameter" in f], axis=0)
         if not np.any(weight):
             return 0
         factors = [self.factor(*factor) for factor in self.factors_of(term)]
@@ -139,20 +138,20 @@ class Picture:
         if reduced:  # their product comes first, at the finest of their sizes
             finest = min(map(self.scale_of, reduced))
             factors.append(self.enlarge(np.prod([self.enlarge(values, finest) for values in reduced], axis=0), 1))
-        of_all = np.prod([values for values in factors if self.scale_of(values) == 1], axis=0)
-        return weight * self.parts[term["radiance"]] * of_all
+        return weight * self.parts[term["radiance"]] * np.prod([v for v in factors if self.scale_of(v) == 1], axis=0)
 
     def factors_of(self, term):
         """The factors but for parameters: kind, index or part, quantity. A map chooses the finish at the first hit."""
         factors = [(known("kind of factor", kind), factor[kind], known("quantity", factor.get("quantity", "color")))
                    for factor in term["factors"] for kind in factor if kind not in ("quantity", "parameter")]
-        hits = [i for i, factor in enumerate(factors) if factor[0] != "image" and factor[2] == "color"]
+        hits = [factor for factor in factors if factor[0] != "image" and factor[2] == "color"]
+        footprints_of = lambda mixture: [share["footprint"] for share in self.m["mixtures"][mixture]]
         finishes = [self.parameters[f["parameter"]].get("finishes", []) for f in term["factors"] if "parameter" in f]
         for t, k in ((t, k) for numbers in finishes for t, k in enumerate(numbers) if k and t in self.mapped):
             kinds = [[self.footprints[f]["target"] == t and self.footprints[f]["kind"]
-                      for f, _ in self.shares[factors[i][:2]]] for i in hits]
+                      for f in (footprints_of(index) if kind == "mixture" else [index])] for kind, index, _ in hits]
             if kinds and all(kind in ("sharp", "broad") for kind in kinds[0]):
-                factors[hits[0]] = factors[hits[0]][:2] + (k - 1,)
+                factors[factors.index(hits[0])] = hits[0] = hits[0][:2] + (k - 1,)
             elif "normal_tilt" in self.targets[t] and not any(map(any, kinds)):
                 factors.append(("number", k == 1, None))
             else:
@@ -191,9 +190,9 @@ class Picture:
             is_shown = quantity in ("color", self.finish[t] - 1)  # what is clear has the finish without a map
             return color[:, :, :3] + (1 - color[:, :, 3:]) * albedo * is_shown
         colors, weights, least = 0, 0, 1e-30
-        for footprint, weight in self.shares[kind, index]:
-            colors = colors + self.parts[weight] * self.factor("footprint", footprint, quantity)
-            weights = weights + self.parts[weight] * np.ones(3)
+        for share in self.m["mixtures"][index]:
+            colors = colors + self.parts[share["weight"]] * self.factor("footprint", share["footprint"], quantity)
+            weights = weights + self.parts[share["weight"]] * np.ones(3)
         of_all = colors.sum(axis=2, keepdims=True) / np.maximum(weights.sum(axis=2, keepdims=True), least)
         return np.where(weights > 0, colors / np.maximum(weights, least), of_all)
 
@@ -204,9 +203,8 @@ class Picture:
         number, is_even = np.arange(POINTS ** 2), self.m["filter"] == "box" and footprint.get("kind") == "sharp"
         if axes:
             x, y = ((line + 0.5) / POINTS - 0.5 for line in (number % POINTS, number // POINTS))
-            if footprint.get("quadrant"):
-                row, column = divmod(footprint["quadrant"] - 1, 2)
-                x, y = (x + column - 0.5) / 2, (y + row - 0.5) / 2
+            if quadrant := footprint.get("quadrant"):
+                x, y = (x + (quadrant - 1) % 2 - 0.5) / 2, (y + (quadrant - 1) // 2 - 0.5) / 2
             at = [uv[i] + x * spread[i] + y * spread[i + 2] for i in (0, 1)]
         else:
             share, angle, c = (number + 0.5) / POINTS ** 2, 2.399963 * number, spread[2] if len(spread) > 2 else 0
@@ -217,7 +215,7 @@ class Picture:
         for i in (i for i in (0, 1) if not (axes or is_even or target["periodic"][i])):  # a Gaussian ends with it
             weight *= (at[i] >= target["uv_min"][i]) & (at[i] <= target["uv_max"][i])
         weight = np.where(weight.any(axis=1, keepdims=True), weight, 1)[..., None]  # unless nothing is left
-        mean = np.zeros(covered.shape + (4,)) + [0, 0, 0, 1]
+        mean = np.zeros(covered.shape + texels.shape[2:]) + ([0] * (texels.shape[2] - 1) + [1])
         mean[covered] = (weight * look_up(texels, *at)).sum(axis=1) / weight.sum(axis=1)
         return mean
 
@@ -226,11 +224,13 @@ class Picture:
         if ("gate", t) in self.samples:
             return np.dstack([1 - self.samples["gate", t].sum(axis=2), self.samples["gate", t]])
         importance, weights, total = {"sharp": 1, "broad": 1e-3, "interreflection": 1e-6}, 0, 0
+        shown = np.arange(len(self.targets[t]["finishes"])) == self.finish[t] - 1
         for footprint in (f for f in self.footprints if f["target"] == t):
             share = self.parts[footprint["uv"]][:, :, 2:] * importance[footprint["kind"]]
-            means = [self.average(footprint, texels)[:, :, :1] for texels in self.textures[t]["gate"]]
-            weights, total = weights + self.enlarge(share * np.dstack(means), 1), total + self.enlarge(share, 1)
-        return np.where(total > 0, weights / np.maximum(total, 1e-30), np.arange(len(means)) == self.finish[t] - 1)
+            means, alpha = np.split(self.average(footprint, self.textures[t]["gate"]), [-1], axis=2)
+            weights = weights + self.enlarge(share * (means + (1 - alpha) * shown), 1)
+            total = total + self.enlarge(share, 1)
+        return np.where(total > 0, weights / np.maximum(total, 1e-30), shown)
 
 
 def main(path, output, *edits):
@@ -238,11 +238,11 @@ def main(path, output, *edits):
     for key, value in (edit.split("=") for edit in edits):
         kind, _, name = key.rpartition(":")
         numbers = [float(number) for number in value.split(",")] if "," in value else []
-        image = {} if kind else {"color": np.array([[numbers + [1]]]) if numbers else read_image(value)}
-        said[kind][name] = image or numbers or value
+        said[kind][name] = numbers or value if kind else {
+            "color": np.array([[numbers + [1]]]) if numbers else read_image(value)}
     picture = Picture(path, said[""], said["finish"], said["light"]).make()
-    head = b"PF\n%d %d\n-1\n" % (picture.shape[1], picture.shape[0])  # PFM: lines from the bottom
-    open(output, "wb").write(head + picture[::-1].astype("<f4").tobytes())
+    with open(output, "wb") as file:  # PFM: lines from the bottom
+        file.write(b"PF\n%d %d\n-1\n" % picture.shape[1::-1] + picture[::-1].astype("<f4").tobytes())
 
 
 if __name__ == "__main__":

@@ -123,6 +123,18 @@ static unsigned leaf_targets(const Leaves *leaves, const Leaf *leaf)
     return targets;
 }
 
+/* What the albedo is multiplied by to be the reflectance of the diffuse lobes, for light from all sides alike. A cosine
+ * to the power of the brilliance has the integral 2 pi / (brilliance + 1). Light that goes below the surface counts
+ * where it goes in. */
+static float reflectance_of(const Shading *s)
+{
+    const Bsdf *b = &s->bsdf;
+    if (b->lambert)
+        return b->diffuse;
+    const float of_lobe = b->disney ? 1 : 2 / (b->brilliance + 1), under = b->coating.present ? b->coating.under : 1;
+    return (b->diffuse + b->subsurface) * of_lobe * under;
+}
+
 void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const Ray *ray, const Hit *hit,
                        LeafVisitor *visit, void *context)
 {
@@ -134,7 +146,7 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         SeenLeaf seen = {.share = 1};
         shading_at(&seen.s, scene, variants, 1, ray, hit);
         seen.albedo = shading_albedo(&seen.s, 0);
-        seen.reflectance = rgb_scale(seen.albedo, shading_reflectance(&seen.s));
+        seen.reflectance = rgb_scale(seen.albedo, reflectance_of(&seen.s));
         seen.targets = whole.target >= 0 ? 1u << whole.target : 0;
         visit(context, &seen);
         return;
@@ -149,7 +161,7 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         const Rgb albedo = seen_albedo(&seen.s, &whole, &leaves, leaf, variants);
         seen.albedo = rgb_scale(albedo, surplus);
         if (seen.share > 0)
-            seen.reflectance = rgb_scale(albedo, leaf->weight / seen.share * shading_reflectance(&seen.s));
+            seen.reflectance = rgb_scale(albedo, leaf->weight / seen.share * reflectance_of(&seen.s));
         visit(context, &seen);
     }
 }
@@ -188,17 +200,6 @@ float shading_roughness(const Shading *s)
     if (finish_is_mirror(s->surface.texture->finish) || !rgb_is_black(b->passing.d) || !rgb_is_black(b->passing.i))
         return 0;
     return b->highlights > 0 ? sqrtf(bsdf_highlight_alpha(b)) : 1;
-}
-
-/* Of the diffuse lobes, for light from all sides alike. A cosine to the power of the brilliance has the integral
- * 2 pi / (brilliance + 1). Light that goes below the surface counts where it goes in. */
-float shading_reflectance(const Shading *s)
-{
-    const Bsdf *b = &s->bsdf;
-    if (b->lambert)
-        return b->diffuse;
-    const float of_lobe = b->disney ? 1 : 2 / (b->brilliance + 1), under = b->coating.present ? b->coating.under : 1;
-    return (b->diffuse + b->subsurface) * of_lobe * under;
 }
 
 float shading_metallic(const Shading *s)

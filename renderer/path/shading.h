@@ -66,7 +66,7 @@ typedef struct SeenLeaf {
     Shading s;
     float share;      /* of the surface, at this point; the sum is 1 */
     Rgb albedo;       /* as seen through the layers above; that of the first variant */
-    Rgb reflectance;  /* the same times shading_reflectance; times the share it is the leaf's part of the whole */
+    Rgb reflectance;  /* the same of its diffuse lobes; times the share it is the leaf's part of the whole */
     unsigned targets; /* bits: its own, and those of the layers above */
 } SeenLeaf;
 typedef void LeafVisitor(void *context, const SeenLeaf *leaf);
@@ -76,8 +76,6 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
 /* The AOVs of these names, see <retex/host/aov.h>. */
 float shading_roughness(const Shading *shading);
 float shading_metallic(const Shading *shading);
-/* What the albedo is multiplied by to be the reflectance. */
-float shading_reflectance(const Shading *shading);
 
 /* The kind of a path's next ray: rays that the camera sends through refracting glass stay camera rays. */
 static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)

@@ -1,4 +1,5 @@
 """docs/read_set.py against retex-combine, for read-set.sh: renders small sets of every kind, and prints TAP."""
+import gc
 import os
 import subprocess
 import sys
@@ -15,7 +16,7 @@ SIZE = "45x35"  # no multiple of the scales of reduced parts
 CONSTANT = 100  # dB
 COLORS = [(0.8, 0.2, 0.1), (0, 0, 0), (1.7, 1, 0.3), (0.1, 0.5, 0.9), (1, 1, 1), (0.3, 0.3, 0.3), (0, 0.6, 0.2),
           (0.9, 0, 0.5)]
-GAINS = [0.5, 0, 3]
+GAINS = [None, [0.5, 0.8, 3], [0.5, 0, 3]]  # of lamps by turns; None: as rendered
 number = 0
 
 
@@ -126,9 +127,9 @@ def check_colors(name):
     worst = 200
     for count in sorted({0, 1, 2, len(names)} & set(range(len(names) + 1))):
         colors = dict(zip(names[-count:] if count else [], COLORS))
-        for relit in {False, bool(lamps)}:
+        for gained in GAINS if lamps else GAINS[:1]:
             for refinished in {False, bool(finishes)}:
-                gains = {lamp: GAINS[i % 3] for i, lamp in enumerate(lamps)} if relit else {}
+                gains = {lamp: gained[i % 3] for i, lamp in enumerate(lamps)} if gained else {}
                 chosen = finishes if refinished else {}
                 options = [word for target, (r, g, b) in colors.items()
                            for word in ("--texture", f"{target}=rgb({r},{g},{b})")]
@@ -137,6 +138,7 @@ def check_colors(name):
                 textures = {target: {"color": np.array([[[*c, 1.0]]])} for target, c in colors.items()}
                 lights = {lamp: gain * np.array(lamps[lamp]) for lamp, gain in gains.items()}
                 picture = read_set.Picture(path, textures, chosen, lights).make()
+                gc.collect()  # its other images
                 worst = min(worst, decibels(picture, combined(path, options)))
     print(f"# {name} | {worst:.1f} dB")
     result(worst >= CONSTANT, f"{name}: constant colours")
