@@ -42,7 +42,7 @@ def signed_urls(server):
     expect('log', (lines[0]['path'], [line['path'] for line in lines if line['status'] == 200 and NEW[:3].hex() in line['path']]),
            ('/v1', []))
     # a server that has other keys, or a path that somebody has changed, must not tell signatures to who reads logs
-    moved = f'/{right[:20]}+{right[21:]}', f'/a{right}', f'/{right}/none', f'/{right}/{right}', f'/%{ord(right[0]):02x}{right[1:]}'
+    moved = f'/{right[:20]}+{right[21:]}', f'/{right[:20]}/{right[21:]}/x', f'/a{right}', f'/{right}/none', f'/{right}/{right}', f'/%{ord(right[0]):02x}{right[1:]}'
     for url in (*moved, *(url + path for url in moved), f'/x?s={right}', path + f'?s={right}', f'/wp-login.php?{right}'):
         expect(url, ask(server, url).status, 403)
     ask(server, '/favicon.ico'), ask(server, '/v1/small/Floor=oak;Floor.scale=2/unsigned.png')
@@ -50,6 +50,7 @@ def signed_urls(server):
     signatures = [signature(key, path) for key in (NEW, OLD, bytes(16), OLD + b'\1')] + [other]
     expect('no signature in the log', [s for s in signatures for at in range(32) if s[at:at + 12] in told], [])
     paths = [json.loads(line)['path'] for line in told.splitlines()]
+    expect('before paths', [p for p in paths if '/v1' in p[1:] and not p.startswith('/v1')], [])
     expect('what was asked for', [p in paths for p in (path, '/favicon.ico', '/v1/small/Floor=oak;Floor.scale=2/unsigned.png')],
            [True, True, True])
 
