@@ -297,6 +297,17 @@ static int check_picture(Search *s, const RetexImage *picture, RetexError *err)
     return RETEX_OK;
 }
 
+/* Begins with what another solution found. */
+static void begin_with(Search *s, const RetexSolution *start)
+{
+    for (int i = 0; i < s->solution->count; i++)
+        for (int k = 0; k < start->count && s->solution->column[i] >= 0; k++)
+            for (int c = 0; c < 3 && start->index[k] == s->solution->index[i] && start->unknowns[k].seen &&
+                            start->unknowns[k].kind == s->solution->unknowns[i].kind;
+                 c++)
+                s->first[s->model.columns[s->solution->column[i]].number[c]] = start->unknowns[k].value[c];
+}
+
 /* Colours begin as the mean original, lamps as rendered. */
 static void begin(Search *s)
 {
@@ -328,6 +339,8 @@ static int solve(Search *s, const RetexImage *picture, RetexError *err)
     if (!code)
         code = retex_unknowns_open(s->solution, &s->model, s->params, &s->numbers, err);
     begin(s);
+    if (!code && s->params->start)
+        begin_with(s, s->params->start);
     if (!code)
         code = choose(s, coarse, &best, err);
     if (!code)

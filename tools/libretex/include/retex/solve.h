@@ -55,10 +55,12 @@ typedef struct RetexSolveParams {
     int cross;            /* as in RetexCombineParams; default 3 */
     const RetexEdit *lights;   /* lamps and finishes that are not sought; default NULL: as rendered */
     const RetexBudget *budget; /* says when to stop; default NULL */
+    const RetexSolution *start; /* of the same set: what it found is begun with, where that is sought again; default
+                                   NULL: mean originals, and lamps as rendered */
 } RetexSolveParams;
 #define RETEX_SOLVE_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL                                                      \
+        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL, NULL                                                      \
     }
 
 /* Find them. picture: of the set's size, 3 or more channels, scene-linear Rec. 709; pixels with a number that is not
