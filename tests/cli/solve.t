@@ -94,6 +94,15 @@ $ retex-combine -q set.exr --solve '#fffa00' --free Wall --region 40,10,20,12 | 
 > Wall=rgb(0.6959,0.8281,0)
 > Wall: 0.6959 0.8281 0 +- at the end of its range
 
+# A box that is white all around, with a lamp besides: what all together find is not further off than one colour alone.
+$ cp "$TESTS/closed_box.pov" .
+$ retex-render -q --size 64x36 --spp 32 -t Floor -t Rest --lamps each closed_box.pov -o box.exr
+% off() { retex-combine -q box.exr --solve '#7d8f86' --region 15,25,30,10 --free $1 2>>told | sed -n '$s/.* //p'; }
+$ off Rest >one
+$ off Floor,Rest,light:A >all
+$ paste one all | awk '{ print ($2 <= $1 + .01) ? "near" : $0 }'
+> near
+
 # What is refused, in one line each; nothing is written.
 $ oiiotool known.exr --resize 48x36 -o wrong.exr
 $ head -c 300 known.png >cut.png
