@@ -89,7 +89,7 @@ static void lamps_stand_for_all_light_where_one_is_changed(void **state)
     }
 }
 
-/* As much of all light as the lamps have in common, by channel, and of each what it has beyond: where the light of lamps
+/* As much of all light as the lamps have in common, by channel, and of each what it has beyond: where light of lamps
  * does not add up to all light, as in a pack, or all light has corrections. Kept values are 1 0.5 2, and else 1. */
 static void light_that_lamps_have_in_common_is_that_of_all(void **state)
 {

@@ -305,8 +305,8 @@ static void take_nearer(Solving *best, Solving *other)
     *other = worse;
 }
 
-/* All together may end in a minimum that is none of fewer: each is sought alone, and then all from there. Where one alone
- * still comes nearer, it is what was found, which is told. */
+/* All together may end in a minimum that is none of fewer: each is sought alone, and then all from there. Where one
+ * alone still comes nearer, it is what was found, which is told. */
 static int begin_again(const Cli *cli, Job *job, Solving *best, const RetexSolveParams *params, RetexError *err)
 {
     char names[RETEX_UNKNOWNS_MAX + RETEX_MAX_TARGETS][RETEX_NAME_MAX + 16];

@@ -2,8 +2,8 @@
  * is left out is divided between the next lower and the next higher order that is kept. The two shares are positive
  * and exact for albedo 1 and RETEX_COMPACT_GREY; between these albedos the error is small. With RETEX_COMPACT_MIXED,
  * terms of three and more interreflections use one mixture of all targets' interreflections. Light of single lamps, of
- * which there are many, does so from two on; it keeps the same orders, or it would be brighter than in the set with dark
- * textures, and darker with bright ones. */
+ * which there are many, does so from two on; it keeps the same orders, or it would be brighter than in the set with
+ * dark textures, and darker with bright ones. */
 #include "compact/orders.h"
 
 #include <math.h>

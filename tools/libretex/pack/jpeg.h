@@ -27,8 +27,8 @@ enum {
 typedef struct RetexPackCurve {
     double white;  /* the value that maps to */
     double levels; /* this level, from 255, which viewers show as white, to RETEX_PACK_LEVELS_MOST */
-    double balance[3]; /* by channel, by what decoded values are multiplied: what rounding levels took from their mean. 0
-                          is 1 */
+    double balance[3]; /* by channel, by what decoded values are multiplied: what rounding took from their mean. 0 is
+                          1 */
 } RetexPackCurve;
 
 double retex_pack_curve_level(const RetexPackCurve *curve, double value);

@@ -11,7 +11,7 @@ int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, cons
                           RetexTexture *const *textures, const RetexCombineParams *params, RetexPolynomialTerms apart,
                           int nthreads, RetexError *err);
 void retex_polynomial_close(RetexPolynomial *polynomial);
-/* What the lamps with the polynomial's parameters have in common, in times of what they are kept with: the least of all.
+/* What the lamps with the polynomial's parameters have in common, in times of what they are kept with: the least.
  * That much of all light counts, with its corrections; of each lamp what it has beyond. least: the parameter that has
  * it, or -1. Returns 1, with nothing in common, where light of single lamps stands for all. */
 int retex_polynomial_common(const RetexPolynomial *polynomial, float common[3], int least[3]);

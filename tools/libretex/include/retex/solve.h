@@ -60,7 +60,7 @@ typedef struct RetexSolveParams {
 } RetexSolveParams;
 #define RETEX_SOLVE_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL, NULL                                                      \
+        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL, NULL                                                \
     }
 
 /* Find them. picture: of the set's size, 3 or more channels, scene-linear Rec. 709; pixels with a number that is not
