@@ -80,8 +80,9 @@ SETS = {
     "eight targets": render(*THREE, "-t", "Ceiling", "-t", "Left", "-t", "Right", "-t", "Block", "-t", "Lid"),
     "mirror and glass": render(*THREE, "-D", "Glass=1"),
     "Gaussian filter": render(*TWO, "--filter", "gaussian"),
-    "one hit kept, further hits": render(*TWO, "-t", "Left", "--orders", "1"),
-    "two hits kept, further hits": render(*TWO, "-t", "Left", "-t", "Right", "-t", "Ceiling", "--orders", "2"),
+    "one hit kept": render(*TWO, "-t", "Left", "--orders", "1"),
+    "two hits kept": render(*TWO, "-t", "Left", "-t", "Right", "-t", "Ceiling", "--orders", "2"),
+    "three hits kept, further hits": render("-t", "Room=Floor,Ceiling,Left,Right,Back", "--orders", "3"),
     "layout paper": render("-t", "Floor", "--layout", "paper"),
     "layout paper, several targets": render(*THREE, "--layout", "paper"),
     "layout paper, mixed terms dropped": render(*TWO, "--layout", "paper", "--strict-paper"),
@@ -277,7 +278,7 @@ if not words:
     check_texture("packed, finishes and lamps", COLOR, CONSTANT, grey, "grey.png")
     check_texture("normals and lamps", COLOR, CONSTANT, normals, "normal.png")
     read_set.POINTS = 12
-    check_texture("finishes", COLOR, 55, grey, "grey-waves.png")
+    check_texture("finishes", COLOR, 75, grey, "grey-waves.png")
     check_texture("normals and lamps", "waves.png", 45, normals, "normal-waves.png")
     check_texture("one target", "waves.png", 55)
     check_texture("one target", "clear.png", 55)
@@ -285,7 +286,7 @@ if not words:
     check_texture("layout paper", "waves.png", 55)
     check_texture("several targets", "waves.png", 55)
     check_texture("one sample a pixel", "waves.png", 70)
-    check_samples("one target", 65)
+    check_samples("one target", 70)
     check_samples("one sample a pixel", 90)
     check_refusals()
     check_command()
