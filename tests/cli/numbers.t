@@ -84,8 +84,10 @@ $ cat >b.csv <<'END'
 + c.png,"rgb(2,2,2)"
 + END
 $ retex-combine -q t.exr --batch b.csv
-! retex-combine: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
-! retex-combine: warning: Floor=rgb(2,2,2): a surface of a colour above 1 gives back more light than it gets
+! retex-combine: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly; and 1 more warning, which -q hides
+$ retex-combine -qv t.exr --batch b.csv 2>&1 | grep warning | sed 's/^/! /'
+> ! retex-combine: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+> ! retex-combine: warning: Floor=rgb(2,2,2): a surface of a colour above 1 gives back more light than it gets
 $ retex-render -q --plain --size 16x12 --spp 1 --replace Floor=nan.exr box.pov -o p.exr
 ! retex-render: warning: nan.exr: 1 texel not finite, the first at 32,20: taken as black
 $ retex-diff -q p.exr p.exr

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -437,9 +438,43 @@ void cli_warn(const Cli *cli, const char *fmt, ...)
     va_end(args);
 }
 
-void cli_warn_text(void *cli, const char *text)
+/* With -q, what pictures are warned of is said in one line: the first warning, and how many more there were. */
+static struct {
+    pthread_mutex_t lock;
+    const char *tool;
+    char first[4096];
+    int count;
+} unsaid = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static void say_unsaid(void)
 {
-    cli_warn(cli, "%s", text);
+    pthread_mutex_lock(&unsaid.lock);
+    const Cli cli = {.tool = unsaid.tool}; /* that of main may be gone */
+    const int more = unsaid.count - 1;
+    if (more == 0)
+        cli_warn(&cli, "%s", unsaid.first);
+    else if (more > 0)
+        cli_warn(&cli, "%s; and %d more warning%s, which -q hides", unsaid.first, more, more == 1 ? "" : "s");
+    unsaid.count = 0;
+    pthread_mutex_unlock(&unsaid.lock);
+}
+
+void cli_warn_text(void *context, const char *text)
+{
+    static int is_registered;
+    const Cli *cli = context;
+    if (!cli->quiet || cli->verbose) {
+        cli_warn(cli, "%s", text);
+        return;
+    }
+    pthread_mutex_lock(&unsaid.lock);
+    if (!is_registered)
+        is_registered = atexit(say_unsaid) == 0;
+    if (unsaid.count++ == 0)
+        snprintf(unsaid.first, sizeof unsaid.first, "%s%s", cli->frame, text), unsaid.tool = cli->tool;
+    pthread_mutex_unlock(&unsaid.lock);
+    if (!is_registered)
+        say_unsaid();
 }
 
 void cli_note(void *cli, int important, const char *text)

@@ -130,8 +130,9 @@ void cli_set_frame(Cli *cli, int frame);
 void cli_error(const Cli *cli, const RetexError *err);
 void cli_error_text(const RetexError *err, char *text, size_t size); /* the text after `error: ` */
 void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
-/* cli_warn as a callback for libraries; cli is a Cli. */
-void cli_warn_text(void *cli, const char *text);
+/* What pictures are warned of, as a callback for libraries; context is a Cli. With -q, but without -v, all are one
+ * line, when the program ends. */
+void cli_warn_text(void *context, const char *text);
 void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
 void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
 /* cli_info of what is important, else cli_detail, as a callback for libraries; cli is a Cli. */
