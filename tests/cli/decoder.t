@@ -57,7 +57,7 @@ $ for signal in 15 2 9; do
 
 # The program that decodes.
 $ RETEX_DECODER=/nowhere/decode retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
-! retex-combine: error: most.jpg: no process to decode it: No such file or directory
+! retex-combine: error: most.jpg: no process for it: No such file or directory
 = 2
 $ RETEX_DECODER=/bin/false retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
 ! retex-combine: error: most.jpg: the process that decodes it ended (without a word): it is damaged

@@ -226,7 +226,7 @@ static void test_early_ends(void **state)
                 {"half a reply", "ended (without a word)"},
                 {"half the pixels", "ended (without a word)"},
                 {"crash", "ended (Aborted)"},
-                {"time", "not decoded within 60 s"},
+                {"time", "not done within 60 s"},
                 {"close", "ended (without a word)"},
                 {"many pixels", "4000000 pixels, more than the 1000000 of --max-pixels"}};
     (void)state;
@@ -323,7 +323,7 @@ static void test_no_program(void **state)
     snprintf(before, sizeof before, "%s", getenv("RETEX_DECODER"));
     setenv("RETEX_DECODER", "/nowhere/retex-decode", 1);
     assert_int_equal(read_by("", &image, NULL, NULL, &err), RETEX_EIO);
-    assert_non_null(strstr(err.message, "a.png: no process to decode it: No such file or directory"));
+    assert_non_null(strstr(err.message, "a.png: no process for it: No such file or directory"));
     setenv("RETEX_DECODER", before, 1);
 }
 
