@@ -19,6 +19,8 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_diff: ok
 > retex_picture_open: ok
 > retex_picture_open_memory: ok
+> retex_image_alloc: ok
+> retex_picture_encode: ok
 > retex_edit_create: ok
 > retex_edit_option: ok
 > retex_edit_option: ok

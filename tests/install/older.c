@@ -72,6 +72,8 @@ static void call_files(const char *image, const char *written)
     RetexDiff *difference = NULL;
     RetexFileSum sum;
     int descriptor = -1;
+    void *data = NULL;
+    size_t bytes = 0;
     diff->access = read->access = access_of_all();
     printf("retex_access_check: %s\n", retex_access_check(read->access, "", image) ? "no" : "ok");
     CALL(retex_access_open, read->access, image, &descriptor);
@@ -89,6 +91,10 @@ static void call_files(const char *image, const char *written)
     retex_picture_close(&rows, 0, NULL);
     CALL(retex_picture_open_memory, &rows, "png", 8, 8, 3, write);
     retex_picture_close(&rows, 0, NULL);
+    retex_image_free(&picture);
+    CALL(retex_image_alloc, &picture, 8, 8, 3);
+    CALL(retex_picture_encode, &data, &bytes, &picture, "webp", write, NULL, 1);
+    free(data);
     retex_diff_close(&difference);
     retex_image_free(&picture);
 }
