@@ -151,8 +151,8 @@ $ iinfo x.tx y.tx
 $ retex-combine -q room.retex --texture Wall=room.retex -o x.exr &&
 +     oiiotool 'room.retex?Wall=room.retex' -d half -o y.exr && same x.exr y.exr
 > same
-! retex-combine: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
-! retex: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.8, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex-combine: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.9, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex: warning: room.retex: 21 texels of 1536 brighter than white, up to 19.9, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
 
 # What is wrong with options.
 $ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&Floor.scal=2' \
