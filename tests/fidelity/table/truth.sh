@@ -29,21 +29,21 @@ store_truth() { # NAME NEW FILE
 # Of a picture that a command renders, which takes --size, --spp, --seed and -o: its file, in $kept, to which
 # $work/truth/NAME.exr is a link.
 find_truth() { # NAME VIEW COMMAND…
-    name=$1 view=$2
+    truth_name=$1 truth_view=$2 # a caller has names of its own
     shift 2
     mkdir -p "$work/key" "$work/truth"
-    "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$name.exr"
-    kept=$(truth_file "$name" "$work/key/$name.exr" "$view")
-    ln -sfn "$kept" "$work/truth/$name.exr"
+    "$@" --size 24x16 --spp 16 --seed 1000 -o "$work/key/$truth_name.exr"
+    kept=$(truth_file "$truth_name" "$work/key/$truth_name.exr" "$truth_view")
+    ln -sfn "$kept" "$work/truth/$truth_name.exr"
 }
 # One render as half floats: $work/truth/NAME.exr.
 converged() { # NAME SIZE SPP SEED COMMAND…
-    name=$1 view="--size $2 --spp $3 --seed $4"
+    truth_name=$1 truth_view="--size $2 --spp $3 --seed $4"
     shift 4
-    find_truth "$name" "$view" "$@"
+    find_truth "$truth_name" "$truth_view" "$@"
     [ ! -e "$kept" ] || return 0
     # shellcheck disable=SC2086 # words wanted
-    "$@" $view -o "$work/key/$name.exr"
-    oiiotool "$work/key/$name.exr" --ch R,G,B -d half -o "$work/key/$name-new.exr"
-    store_truth "$name" "$work/key/$name-new.exr" "$kept"
+    "$@" $truth_view -o "$work/key/$truth_name.exr"
+    oiiotool "$work/key/$truth_name.exr" --ch R,G,B -d half -o "$work/key/$truth_name-new.exr"
+    store_truth "$truth_name" "$work/key/$truth_name-new.exr" "$kept"
 }
