@@ -29,8 +29,7 @@ $ cmp sa.p.exr sb.p.exr
 $ printf '%s\n' output,floor,Wall a.png,oak,Wood b.png,:scale=2\ oak,oak c.png,oak, >t.csv
 $ sed 's#oak#oak/textures/oak_diff_2k.jpg#g; s#Wood#Wood/Wood_2K-JPG_Color.jpg#; s/\([abc]\).png/\1w.png/' t.csv >w.csv
 $ retex-combine -q s.exr --batch t.csv --manifest m
-! retex-combine: warning: oak: roughness and normal maps are not used
-! retex-combine: warning: Wood: the opacity map is not used
+! retex-combine: warning: oak: roughness and normal maps are not used; and 1 more warning, which -q hides
 $ retex-combine -q s.exr --batch w.csv
 $ for k in a b c; do cmp $k.png ${k}w.png; done
 $ grep -c "oak $(/usr/bin/python3 -c 'import sys, zlib; print("%08x" % zlib.crc32(open(sys.argv[1], "rb").read()))' oak/textures/oak_diff_2k.jpg) " m
@@ -45,8 +44,7 @@ $ retex-combine s.exr --batch t.csv --manifest m --verify
 > 0 of 3 pictures good; 3 stale
 = 1
 $ retex-combine -q s.exr --batch t.csv --manifest m --resume
-! retex-combine: warning: oak: roughness and normal maps are not used
-! retex-combine: warning: Wood: the opacity map is not used
+! retex-combine: warning: oak: roughness and normal maps are not used; and 1 more warning, which -q hides
 $ rm oak/textures/oak_diff_4k.jpg
 $ for k in a b c; do cmp -s $k.png ${k}w.png || echo $k; done
 > a
@@ -56,9 +54,7 @@ $ for k in a b c; do cmp -s $k.png ${k}w.png || echo $k; done
 # However many slashes are behind its name, it is one image.
 $ printf '%s\n' output,floor,Wall sa.png,oak/,Wood b.png,:scale=2\ ./oak//,./oak c.png,oak, >t2.csv
 $ retex-combine -q s.exr --batch t2.csv --manifest m2
-! retex-combine: warning: oak: roughness and normal maps are not used
-! retex-combine: warning: Wood: the opacity map is not used
-! retex-combine: warning: ./oak: roughness and normal maps are not used
+! retex-combine: warning: oak: roughness and normal maps are not used; and 2 more warnings, which -q hides
 $ cmp sa.png aw.png
 $ cmp b.png bw.png
 $ cmp c.png cw.png
