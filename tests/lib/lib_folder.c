@@ -4,6 +4,7 @@
 
 #include <cmocka.h>
 #include <dirent.h>
+#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,17 +28,16 @@ static int is_entry(const struct dirent *entry)
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
 
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
+{
+    (void)info, (void)kind, (void)walk;
+    return remove(path);
+}
+
 int test_remove_folder(void **state)
 {
     (void)state;
-    DIR *dir = opendir(test_folder);
-    if (!dir)
-        return -1;
-    for (struct dirent *entry; (entry = readdir(dir));)
-        if (is_entry(entry))
-            unlink(test_in_folder(entry->d_name));
-    closedir(dir);
-    return rmdir(test_folder);
+    return nftw(test_folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
 }
 
 const char *test_in_folder(const char *name)

@@ -8,7 +8,7 @@
 extern char test_folder[32];
 extern char test_own_file[48];
 
-/* Setup and teardown for cmocka, of a group or a test; state is not used. The folder is removed with all its files. */
+/* Setup and teardown for cmocka, of a group or a test; state is not used. The folder is removed with all below it. */
 int test_make_folder(void **state);
 int test_remove_folder(void **state);
 

@@ -1,10 +1,10 @@
 /* Folders that strangers have filled: links at every place of a path are met, and nothing outside is opened or made. */
 #include "lib_test.h"
+#include "lib_folder.h"
 #include <cmocka.h>
 
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,21 +17,12 @@ static char folder[PATH_MAX]; /* the current one */
 
 static int enter_folder(void **state)
 {
-    char name[] = "/tmp/retex-test-XXXXXX";
-    (void)state;
-    return !mkdtemp(name) || !realpath(name, folder) || chdir(folder);
-}
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
+    return test_make_folder(state) || !realpath(test_folder, folder) || chdir(folder);
 }
 
 static int leave_folder(void **state)
 {
-    (void)state;
-    return chdir("/") || nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    return chdir("/") || test_remove_folder(state);
 }
 
 static void write_text(const char *path, const char *text)

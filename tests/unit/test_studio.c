@@ -1,5 +1,6 @@
 /* Parts of retex-studio without a server: who may ask, command lines of jobs, files that are sent and served. */
 #include "lib_test.h"
+#include "lib_folder.h"
 #include <cmocka.h>
 
 #include <fcntl.h>
@@ -22,21 +23,12 @@ static char folder[PATH_MAX]; /* the current one, by its real name */
 
 static int enter_folder(void **state)
 {
-    char name[] = "/tmp/retex-test-XXXXXX";
-    (void)state;
-    return !mkdtemp(name) || !realpath(name, folder) || chdir(folder);
-}
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
+    return test_make_folder(state) || !realpath(test_folder, folder) || chdir(folder);
 }
 
 static int leave_folder(void **state)
 {
-    (void)state;
-    return chdir("/") || nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    return chdir("/") || test_remove_folder(state);
 }
 
 static void expect_file(const char *name, const char *text)
