@@ -785,7 +785,7 @@ def slow(server):
 def moved(server):
     """A link that takes the place of the folder of images leads nothing elsewhere."""
     image = open('outside.jpg', 'rb').read()
-    open('away/.incoming-1.jpg', 'w').close(), os.utime('away/.incoming-1.jpg', (0, 0))
+    open('away/.incoming-9.jpg', 'w').close(), os.utime('away/.incoming-9.jpg', (0, 0))
     open(f'away/{"0" * 64}.jpg', 'w').close(), os.utime(f'away/{"0" * 64}.jpg', (0, 0))
     before = sorted(os.listdir('away'))
     os.rename('moving', 'moved'), os.symlink('away', 'moving')
