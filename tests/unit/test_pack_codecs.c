@@ -17,7 +17,7 @@
 static void test_jpeg_keeps_levels(void **state)
 {
     (void)state;
-    const RetexPackCurve curve = {1, 255};
+    const RetexPackCurve curve = retex_pack_curve(1, 255);
     const int width = 75, height = 141;
     for (int channels = 1; channels <= 3; channels += 2)
         for (int bright = 0; bright < 2; bright++) {
@@ -27,8 +27,8 @@ static void test_jpeg_keeps_levels(void **state)
             for (size_t i = 0; i < count; i++) {
                 const double x = (double)(i / (size_t)channels % (size_t)width) / width;
                 values[i] = (float)((bright ? 40 : 0.9) * (0.5 + 0.5 * sin(9 * x)) * (1 - 0.1 * (double)(i % 3)));
-                levels[i] = (float)retex_pack_curve_level(&curve, (double)values[i]);
-                assert_true(fabs(retex_pack_curve_value(&curve, (double)levels[i]) - (double)values[i]) <
+                levels[i] = (float)retex_pack_curve_level(&curve, 0, (double)values[i]);
+                assert_true(fabs(retex_pack_curve_value(&curve, 0, (double)levels[i]) - (double)values[i]) <
                             1e-4 * fmax((double)values[i], 1));
             }
             RetexPackJpeg jpeg;
@@ -55,7 +55,7 @@ static void test_jpeg_keeps_levels(void **state)
                               &err);
                 assert_int_not_equal(retex_pack_jpeg_decode_blocks(decoder, (rows + 7) / 8, back, &err), 0);
                 for (int i = 0; i < width * rows * channels; i++) {
-                    const double off = retex_pack_curve_level(&curve, (double)back[i]) -
+                    const double off = retex_pack_curve_level(&curve, 0, (double)back[i]) -
                                        (double)levels[(size_t)strip * (size_t)(64 * width * channels) + (size_t)i];
                     assert_true(fabs(off) < 6);
                     sum += off * off;

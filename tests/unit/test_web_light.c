@@ -78,7 +78,7 @@ static void expect_tile(const unsigned char *atlas, int width, const RetexWebTil
         for (int x = 0; x < im->width; x++)
             for (int c = 0; c < 3; c++) {
                 const float value = im->pixels[retex_image_index(im, x, y) + (size_t)(im->channels == 3 ? c : 0)];
-                const double level = retex_pack_curve_level(&tile->curve, (double)value);
+                const double level = retex_pack_curve_level(&tile->curve, c, (double)value);
                 const int is = atlas[3 * ((size_t)(tile->y + y) * (size_t)width + (size_t)(tile->x + x)) + (size_t)c];
                 assert_true(abs(is - (int)(level + 0.5)) <= NEAR);
             }
@@ -101,8 +101,9 @@ static void tiles_are_where_they_say(void **state)
                                      sizes[i].height, &tiles[i].part, &err),
                   &err);
         packed[tiles[i].part] =
-            i == BLACK ? (RetexPackPart){.codec = RETEX_PACK_ZERO}
-                       : (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = {1, 255}, .jpeg_step = steps[i]};
+            i == BLACK
+                ? (RetexPackPart){.codec = RETEX_PACK_ZERO}
+                : (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = retex_pack_curve(1, 255), .jpeg_step = steps[i]};
     }
     for (int i = 0; i < TILES; i++)
         fill(&set->parts[tiles[i].part].image, i);

@@ -61,7 +61,8 @@ static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, doubl
     const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
     float *levels = malloc(count * sizeof *levels);
     for (size_t i = 0; levels && i < count; i++)
-        levels[i] = (float)fmin(retex_pack_curve_level(curve, (double)im->pixels[i]), most);
+        levels[i] =
+            (float)fmin(retex_pack_curve_level(curve, (int)(i % (size_t)im->channels), (double)im->pixels[i]), most);
     return levels;
 }
 
@@ -151,11 +152,11 @@ static int sum_light(double sum[3], const RetexImage *light /* or NULL */, const
     return row ? RETEX_OK : no_memory(err);
 }
 
-static int is_balanced(const double balance[3])
+static int is_balanced(const double times[3])
 {
     int balanced = 1;
     for (int c = 0; c < 3; c++)
-        balanced = balanced && balance[c] <= BALANCE_MOST && balance[c] >= 1 / BALANCE_MOST;
+        balanced = balanced && times[c] <= BALANCE_MOST && times[c] >= 1 / BALANCE_MOST;
     return balanced;
 }
 
@@ -163,10 +164,8 @@ static int is_balanced(const double balance[3])
 static int restore_mean(RetexPackItem *item, const RetexPackItem *light, int *finer, RetexError *err)
 {
     const int is_gain = light != item;
-    RetexPackCurve *curve = &item->packed->curve;
     RetexImage made = {0};
-    double wanted[3], is[3];
-    memset(curve->balance, 0, sizeof curve->balance);
+    double wanted[3], is[3], times[3] = {1, 1, 1};
     int code = decode(&made, item, err);
     if (!code)
         code = sum_light(wanted, is_gain ? &light->part->image : NULL, &item->part->image, err);
@@ -177,12 +176,12 @@ static int restore_mean(RetexPackItem *item, const RetexPackItem *light, int *fi
                                                  : &light->part->image,
                          &made, err);
     for (int c = 0; c < 3 && !code; c++)
-        curve->balance[c] = is[c] > 0 && wanted[c] > 0 ? wanted[c] / is[c] : wanted[c] > 0 ? INFINITY : 1;
-    *finer = !code && !is_balanced(curve->balance) && item->packed->jpeg_step >= 2;
+        times[c] = is[c] > 0 && wanted[c] > 0 ? wanted[c] / is[c] : wanted[c] > 0 ? INFINITY : 1;
+    *finer = !code && !is_balanced(times) && item->packed->jpeg_step >= 2;
     for (int c = 0; c < 3 && !code; c++)
-        curve->balance[c] = isfinite(curve->balance[c]) ? curve->balance[c] : 1;
+        times[c] = isfinite(times[c]) ? times[c] : 1, item->packed->curve.white[c] *= times[c];
     for (size_t i = 0; i < retex_image_index(&made, 0, made.height) && !code && !is_gain; i++)
-        made.pixels[i] *= (float)curve->balance[i % 3];
+        made.pixels[i] *= (float)times[i % 3];
     retex_image_free(&item->decoded);
     if (!code && !is_gain)
         item->decoded = made;
@@ -244,8 +243,10 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, const RetexPackItem 
     item->slices = calloc((size_t)p->nslices + 1, sizeof *item->slices);
     if (!code && !item->slices)
         code = no_memory(err);
+    const RetexPackCurve planned = p->curve;
     for (int finer = 1; finer && !code;) {
         finer = 0;
+        p->curve = planned;
         code = encode_levels(item, is_picture, err);
         if (!code && light && im->channels == 3)
             code = restore_mean(item, light, &finer, err);
@@ -493,7 +494,7 @@ static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
 static int encode_picture(RetexPackEncoded *w, RetexError *err)
 {
     const RetexImage *im = &w->set->parts[0].image;
-    const RetexPackCurve curve = {1, 255};
+    const RetexPackCurve curve = retex_pack_curve(1, 255);
     if (w->packed[0].codec == RETEX_PACK_JPEG || im->width > RETEX_PACK_JPEG_SIDE_MAX ||
         im->height > RETEX_PACK_JPEG_SIDE_MAX)
         return 0;

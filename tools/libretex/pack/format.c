@@ -143,12 +143,12 @@ static json_t *describe_map(const RetexPackMap *map)
     return o;
 }
 
+/* One number, or one for each channel. */
 static json_t *describe_white(const RetexPackCurve *curve)
 {
-    const double *times = curve->balance;
-    return times[0] > 0 ? json_pack("[f, f, f]", curve->white * times[0], curve->white * times[1],
-                                    curve->white * times[2])
-                        : json_real(curve->white);
+    const double *white = curve->white;
+    return white[0] == white[1] && white[0] == white[2] ? json_real(white[0])
+                                                        : json_pack("[f, f, f]", white[0], white[1], white[2]);
 }
 
 static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart *packed)
@@ -284,13 +284,11 @@ static int named_part(const json_t *o, const char *key, const RetexSet *set, con
     return part;
 }
 
-/* One number, or one for each channel. */
 static int parse_white(RetexPackCurve *curve, const json_t *o)
 {
-    int ok = json_is_array(o) ? json_array_size(o) == 3 : get_positive(o, &curve->white);
-    for (size_t c = 0; c < 3 && ok && json_is_array(o); c++)
-        ok = get_positive(json_array_get(o, c), &curve->balance[c]);
-    curve->white = json_is_array(o) ? 1 : curve->white;
+    int ok = !json_is_array(o) || json_array_size(o) == 3;
+    for (size_t c = 0; c < 3; c++)
+        ok = ok && get_positive(json_is_array(o) ? json_array_get(o, c) : o, &curve->white[c]);
     return ok;
 }
 

@@ -21,18 +21,23 @@
 static const double LEVELS_PER_E = 48;
 static const double ENTRIES_TO_WHITE = (double)RETEX_PACK_LEVEL_ENTRIES / RETEX_PACK_WHITES_MOST;
 
-double retex_pack_curve_level(const RetexPackCurve *curve, double value)
+RetexPackCurve retex_pack_curve(double white, double levels)
 {
-    const double x = value / curve->white;
+    return (RetexPackCurve){.white = {white, white, white}, .levels = levels};
+}
+
+double retex_pack_curve_level(const RetexPackCurve *curve, int channel, double value)
+{
+    const double x = value / curve->white[channel];
     const double y = x > 1 ? 1 + LEVELS_PER_E / 255 * log(x) : retex_srgb_encode(x);
     return curve->levels * fmin(y, RETEX_PACK_WHITES_MOST);
 }
 
-double retex_pack_curve_value(const RetexPackCurve *curve, double level)
+double retex_pack_curve_value(const RetexPackCurve *curve, int channel, double level)
 {
     const double y = level / curve->levels;
     const double x = y > 1 ? exp((y - 1) * 255 / LEVELS_PER_E) : retex_srgb_decode(y);
-    return curve->white * x;
+    return curve->white[channel] * x;
 }
 
 /* Values relative to white, by level, the same for all curves. fill_shares fills them once. */
@@ -40,9 +45,9 @@ static float shares[RETEX_PACK_LEVEL_ENTRIES + 2];
 
 static void fill_shares(void)
 {
-    const RetexPackCurve unit = {1, ENTRIES_TO_WHITE};
+    const RetexPackCurve unit = retex_pack_curve(1, ENTRIES_TO_WHITE);
     for (int i = 0; i < RETEX_PACK_LEVEL_ENTRIES + 2; i++)
-        shares[i] = (float)retex_pack_curve_value(&unit, i);
+        shares[i] = (float)retex_pack_curve_value(&unit, 0, i);
 }
 
 static RetexPackLevels levels_of(const RetexPackCurve *curve)
@@ -51,7 +56,7 @@ static RetexPackLevels levels_of(const RetexPackCurve *curve)
     pthread_once(&once, fill_shares);
     RetexPackLevels levels = {.scale = (float)(ENTRIES_TO_WHITE / curve->levels), .share = shares};
     for (int c = 0; c < 3; c++)
-        levels.white[c] = (float)(curve->white * (curve->balance[c] > 0 ? curve->balance[c] : 1));
+        levels.white[c] = (float)curve->white[c];
     return levels;
 }
 

@@ -25,14 +25,13 @@ enum {
 
 /* Maps values (linear radiance) to levels (what the DCT transforms) and back: see retex-pack(5). */
 typedef struct RetexPackCurve {
-    double white;  /* the value that maps to */
-    double levels; /* this level, from 255, which viewers show as white, to RETEX_PACK_LEVELS_MOST */
-    double balance[3]; /* by channel, by what decoded values are multiplied: what rounding took from their mean. 0 is
-                          1 */
+    double white[3]; /* by channel, of grey the first: the value that maps to */
+    double levels;   /* this level, from 255, which viewers show as white, to RETEX_PACK_LEVELS_MOST */
 } RetexPackCurve;
 
-double retex_pack_curve_level(const RetexPackCurve *curve, double value);
-double retex_pack_curve_value(const RetexPackCurve *curve, double level);
+RetexPackCurve retex_pack_curve(double white, double levels); /* of one white in all channels */
+double retex_pack_curve_level(const RetexPackCurve *curve, int channel, double value);
+double retex_pack_curve_value(const RetexPackCurve *curve, int channel, double level);
 
 /* A JPEG file and the sizes of its slices: slice_bytes[0] is the header, the others are the strips, each with the
  * marker that ends it. */

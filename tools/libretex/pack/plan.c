@@ -255,11 +255,11 @@ static void find_noise(void *context, int part, int thread)
         return;
     plan->whites[part] = white_of(plan, part);
     plan->noise[part] = -1;
-    const RetexPackCurve curve = {.white = plan->whites[part] / rendered_value(plan->set, part), .levels = 255};
+    const RetexPackCurve curve = retex_pack_curve(plan->whites[part] / rendered_value(plan->set, part), 255);
     if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
         return;
     for (size_t i = 0; i < count; i++)
-        levels.pixels[i] = (float)retex_pack_curve_level(&curve, (double)im->pixels[i]);
+        levels.pixels[i] = (float)retex_pack_curve_level(&curve, 0, (double)im->pixels[i]);
     plan->noise[part] = retex_image_noise(&levels, 1);
     retex_image_free(&levels);
 }
@@ -293,9 +293,8 @@ static void plan_light(Planning *plan, int part, double white, double step)
     if (!fits || !all_positive(plan, part))
         return;
     p->codec = RETEX_PACK_JPEG;
-    p->curve.white = white;
     /* JPEG has no steps below 1: use more levels instead; viewers clip those above 255 */
-    p->curve.levels = rint(fmin(fmax(255 / step, 255), RETEX_PACK_LEVELS_MOST));
+    p->curve = retex_pack_curve(white, rint(fmin(fmax(255 / step, 255), RETEX_PACK_LEVELS_MOST)));
     p->jpeg_step = fmax(step, 1);
 }
 

@@ -24,25 +24,26 @@ static int no_memory(RetexError *err)
 /* The curve that has room for the brightest pixel, and the step of its levels that the plan asks for; black: any. */
 static RetexPackCurve choose_curve(const RetexImage *im, const RetexPackPart *packed, double *step)
 {
-    const double planned = packed->codec == RETEX_PACK_JPEG ? packed->curve.white : 1;
+    const double planned = packed->codec == RETEX_PACK_JPEG ? packed->curve.white[0] : 1;
     double most = 0;
     for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++)
         most = fmax(most, (double)im->pixels[i]);
-    RetexPackCurve curve = {.white = fmin(planned, fmax(most, planned / LEVEL_MOST)), .levels = LEVEL_MOST};
-    if (most > curve.white) {
-        const RetexPackCurve unit = {curve.white, 1};
-        curve.levels = fmax(LEVEL_MOST / retex_pack_curve_level(&unit, most), WHITE_LEVEL_LEAST);
+    const double white = fmin(planned, fmax(most, planned / LEVEL_MOST));
+    RetexPackCurve curve = retex_pack_curve(white, LEVEL_MOST);
+    if (most > white) {
+        const RetexPackCurve unit = retex_pack_curve(white, 1);
+        curve.levels = fmax(LEVEL_MOST / retex_pack_curve_level(&unit, 0, most), WHITE_LEVEL_LEAST);
     }
     *step = packed->codec == RETEX_PACK_ZERO ? INFINITY : 1;
     if (packed->codec == RETEX_PACK_JPEG)
-        *step = packed->jpeg_step / packed->curve.levels * curve.levels * pow(planned / curve.white, 1 / GAMMA);
+        *step = packed->jpeg_step / packed->curve.levels * curve.levels * pow(planned / white, 1 / GAMMA);
     *step = fmax(*step, 1);
     return curve;
 }
 
 static float level_of(const RetexPackCurve *curve, float value)
 {
-    return (float)fmin(retex_pack_curve_level(curve, fmax((double)value, 0)), LEVEL_MOST);
+    return (float)fmin(retex_pack_curve_level(curve, 0, fmax((double)value, 0)), LEVEL_MOST);
 }
 
 int retex_web_light_encode(RetexPackJpeg *jpeg, RetexPackCurve *curve, const RetexPart *part,

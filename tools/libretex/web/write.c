@@ -148,14 +148,14 @@ static void take_jpeg(RetexWebFile *file, RetexPackJpeg *jpeg, const char *name)
 static int encode_picture(Web *web, RetexError *err)
 {
     const RetexPart *part = &web->set->parts[0];
-    const RetexPackCurve curve = {1, 255};
+    const RetexPackCurve curve = retex_pack_curve(1, 255);
     const size_t count = (size_t)part->image.width * (size_t)part->image.height * (size_t)part->image.channels;
     RetexPackJpeg jpeg = {0};
     float *levels = malloc(count * sizeof *levels);
     if (!levels)
         return no_memory(err);
     for (size_t i = 0; i < count; i++)
-        levels[i] = (float)fmin(retex_pack_curve_level(&curve, fmax((double)part->image.pixels[i], 0)), 255);
+        levels[i] = (float)fmin(retex_pack_curve_level(&curve, 0, fmax((double)part->image.pixels[i], 0)), 255);
     int code = retex_pack_jpeg_encode(&jpeg, levels, part->image.width, part->image.height, part->image.channels,
                                       fmax(web->packed[0].jpeg_step, 1), err);
     free(levels);
@@ -277,7 +277,7 @@ static json_t *describe_file(const RetexWebFile *file)
 
 static void put_curve(json_t **object, const RetexPackCurve *curve)
 {
-    retex_json_put(object, "white", json_real(curve->white));
+    retex_json_put(object, "white", json_real(curve->white[0]));
     retex_json_put(object, "levels", json_real(curve->levels));
 }
 
