@@ -89,6 +89,7 @@ static void tiles_are_where_they_say(void **state)
     RetexSet *set;
     RetexWebTile tiles[TILES];
     RetexPackPart packed[TILES + 1] = {{.width = 0}};
+    const RetexImage decoded[TILES + 1] = {{0}}; /* of no light */
     RetexPackJpeg jpeg = {0};
     RetexError err = {0};
     int width, height;
@@ -107,7 +108,7 @@ static void tiles_are_where_they_say(void **state)
     }
     for (int i = 0; i < TILES; i++)
         fill(&set->parts[tiles[i].part].image, i);
-    test_must(retex_web_atlas_encode(&jpeg, tiles, TILES, &width, &height, set, packed, &err), &err);
+    test_must(retex_web_atlas_encode(&jpeg, tiles, TILES, &width, &height, set, packed, decoded, 2, &err), &err);
     expect_levels(tiles);
     assert_true(width <= RETEX_WEB_ATLAS_SIDE_MAX && height <= RETEX_WEB_ATLAS_SIDE_MAX);
     unsigned char *atlas = decode(&jpeg, width, height);

@@ -29,7 +29,7 @@ def srgb_decode(y):
 
 def decode_light(codes, curve):
     y = codes.astype(np.float64) / curve["levels"]
-    return curve["white"] * np.where(y > 1, np.exp((np.maximum(y, 1) - 1) * 255 / LEVELS_PER_E), srgb_decode(y))
+    return np.array(curve["white"]) * np.where(y > 1, np.exp((np.maximum(y, 1) - 1) * 255 / LEVELS_PER_E), srgb_decode(y))
 
 
 # ---- footprints ----

@@ -38,6 +38,7 @@ test("a manifest as described is accepted, without reduced images too", () => {
   checkManifest(room);
   checkManifest(changed("classes.0.records", 0));
   checkManifest(changed("lights.0.white", 1e-30));
+  checkManifest(changed("lights.0.white", [1, 2, 3]));
 });
 
 test("parameters, which groups refer to", async () => {
@@ -60,7 +61,7 @@ test("the light of single lamps: an atlas of its own, whose terms are of groups 
   const term = (changes) => ({ terms: [{ ...lamps.terms[1], ...changes }] }), tile = (changes) => ({ tiles: [lamps.tiles[0], { ...lamps.tiles[1], ...changes }] });
   for (const wrong of [{ file: "../x" }, { crc32: -1 }, { tiles: [] }, { tiles: 7 }, { terms: 7 }, { terms: Array(1025).fill(lamps.terms[0]) }, { finest: 3 }, { finest: 4 },
     { width: 20 }, { width: 0.5 }, { width: 4097 }, { height: 4 }, { height: undefined }, term({ group: 2 }), term({ gain: 2 }), term({ gain: -2 }), term({ parameter: 2 }), term({ parameter: -1 }),
-    term({ parameter: undefined }), term({ factors: [0] }), term({ factors: [2] }), term({ factors: Array(17).fill(1) }), tile({ x: 20 }), tile({ y: -1 }), tile({ scale: 2 }), tile({ white: 0 })])
+    term({ parameter: undefined }), term({ factors: [0] }), term({ factors: [2] }), term({ factors: Array(17).fill(1) }), tile({ x: 20 }), tile({ y: -1 }), tile({ scale: 2 }), tile({ white: 0 }), tile({ white: [1, 1] })])
     await fails(() => checkManifest({ ...manifest(), parameters, lamps: { ...lamps, ...wrong } }), /damaged|undefined/, JSON.stringify(wrong));
   for (const wrong of [{ parameters: undefined }, { parameters: [parameters[0], { name: "Sky", value: [1, 1, 1] }] }, { parameters: [parameters[0], { ...parameters[1], kept: [1, -1, 1] }] }, { lamps: null }, { lamps: 5 }])
     await fails(() => checkManifest({ ...manifest(), parameters, lamps, ...wrong }), /damaged|undefined|null/, JSON.stringify(wrong));
@@ -108,7 +109,7 @@ test("numbers out of their ranges", async () => {
   const wrong = {
     width: [0, 32769, 2.5, "20", null, NaN], height: [0, 32769, -1], finest: [0, 3, 16],
     "picture.bytes": [-1, 2 ** 31 + 1, 0.5], "picture.crc32": [-1, 2 ** 32, "5"],
-    "targets.0.share": [-0.1, Infinity, "1"], "lights.0.white": [0, -1, Infinity, 1e31], "lights.0.levels": [0.5, 256],
+    "targets.0.share": [-0.1, Infinity, "1"], "lights.0.white": [0, -1, Infinity, 1e31, [], [1, 2], [1, 2, 3, 4], [1, 0, 1], [1, 1, "1"], [1, [1], 1], {}], "lights.0.levels": [0.5, 256],
     "lights.0.target": [-2, 9, 0.5], "reduced.tiles.0.x": [-1, 4097, 0.5], "reduced.tiles.0.y": [-1, 4097],
     "reduced.tiles.0.white": [0], "reduced.tiles.0.levels": [0, 256],
     "classes.0.scale": [0, 3, 16, "1"], "classes.0.spreads": [1, 5], "classes.0.target": [-1, 2, 0.5], "classes.0.records": [-1, 201, 0.5],

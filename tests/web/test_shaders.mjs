@@ -182,12 +182,12 @@ test("single lamps: drawn as retex-combine draws them, alone, in mixtures and wi
 });
 
 test("shares of lamps are enlarged bilinearly, constant beyond the outermost centres, and add up", () => {
-  const { lampShader } = player(), tiles = new WebGLTexture(), terms = new WebGLTexture(), [x0, y0, width, height, times] = [2, 1, 3, 2, 4];
+  const { lampShader } = player(), tiles = new WebGLTexture(), terms = new WebGLTexture(), [x0, y0, width, height, times] = [2, 1, 3, 2, 4], white = [1.5, 1.2, 0.9];
   tiles.store("RGBA8", 8, 4, 0);
   terms.store("RGBA32F", 16, 3, 0);
   tiles.images[0][0].values.forEach((_, i, all) => (all[i] = ((i * 37) % 101) / 101));
   for (const [row, lamp] of [[1, 0], [2, 1]]) {
-    terms.put(0, 0, row, 2, 1, [x0, y0, width, height, times, 1.5, 255, lamp], 4, (v) => v);
+    terms.put(0, 0, row, 3, 1, [x0, y0, width, height, times, 255, lamp, 0, ...white, 0], 4, (v) => v);
   }
   const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1, end: 3, group: -1, colors: [[2, 3, 4], [10, 20, 30]] });
   const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4), tent = (a, b) => Math.max(0, 1 - Math.abs(a - b));
@@ -197,7 +197,7 @@ test("shares of lamps are enlarged bilinearly, constant beyond the outermost cen
       for (let j = 0; j < height; j++)
         for (let i = 0; i < width; i++)
           for (let k = 0; k < 3; k++)
-            expected[k] += tent(u, i) * tent(v, j) * 1.5 * linear(tiles.images[0][0].values[4 * ((y0 + j) * 8 + x0 + i) + k]) * [12, 23, 34][k];
+            expected[k] += tent(u, i) * tent(v, j) * white[k] * linear(tiles.images[0][0].values[4 * ((y0 + j) * 8 + x0 + i) + k]) * [12, 23, 34][k];
       near(shade([x + 0.5, y + 0.5, 0, 1]).slice(0, 3), expected, 1e-9, `${x}, ${y}`);
     }
 });
@@ -265,12 +265,13 @@ test("while not all is loaded, the picture is the still one and what new texture
 test("levels of light are those of retex-web(5)", () => {
   const { mixtureShader } = player(), room = whole.room;
   const { run: values } = compile(`${mixtureShader(room).split("uniform usampler2D records")[0]}
-    uniform vec3 code; uniform float white, levels; out vec4 result;
+    uniform vec3 code, white; uniform float levels; out vec4 result;
     void main() { result = vec4(light(code, white, levels), 1.0); }`);
   const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
   for (const [white, levels] of [[1, 255], [2.5, 200], [0.1, 120]])
     for (let level = 0; level <= 255; level++) {
       const expected = level <= levels ? white * linear(level / levels) : white * Math.exp(((level / levels - 1) * 255) / 48);
-      near(values({ code: [level / 255, level / 255, level / 255], white, levels })([0, 0])[0], expected, expected * 1e-9, `level ${level} of ${levels}`);
+      const is = values({ code: [level / 255, level / 255, level / 255], white: [white, 2 * white, 3 * white], levels })([0, 0]);
+      for (const k of [0, 1, 2]) near(is[k], (k + 1) * expected, expected * 1e-8, `level ${level} of ${levels}, channel ${k}`);
     }
 });

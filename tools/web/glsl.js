@@ -14,7 +14,7 @@ precision highp usampler2D;
 precision highp usampler2DArray;
 vec3 linear(vec3 y) { return mix(y / 12.92, pow((max(y, 0.04045) + 0.055) / 1.055, vec3(2.4)), greaterThan(y, vec3(0.04045))); }
 vec3 encoded(vec3 y) { return mix(12.92 * y, 1.055 * pow(max(y, 0.0031308), vec3(1.0 / 2.4)) - 0.055, greaterThan(y, vec3(0.0031308))); }
-vec3 light(vec3 code, float white, float levels) {
+vec3 light(vec3 code, vec3 white, float levels) {
   vec3 y = code * (255.0 / levels);
   return white * mix(linear(y), exp((max(y, 1.0) - 1.0) * (255.0 / 48.0)), greaterThan(y, vec3(1.0)));
 }
@@ -182,7 +182,12 @@ export function classCode(room, c, albedo, add, hasOvers) {
   }`;
 }
 
-export const lightCode = (room, l) => `light(texelFetch(lights, ivec3(p, ${l}), 0).rgb, ${number(room.lights[l].white)}, ${number(room.lights[l].levels)})`;
+/* A curve's white by channel; where all have one it is a number. */
+export const whites = ({ white }) => [white, white, white].flat().slice(0, 3);
+
+export const valueCode = (texel, curve) => `light(${texel}.rgb, vec3(${whites(curve).map(number)}), ${number(curve.levels)})`;
+
+export const lightCode = (room, l) => valueCode(`texelFetch(lights, ivec3(p, ${l}), 0)`, room.lights[l]);
 
 export const imageUniforms = (room) => room.targets.map((_, t) => `uniform sampler2D image${t};`).join("\n");
 

@@ -3,6 +3,7 @@
 import { METER, METER_BLOCK, developMatrix } from "./develop.js";
 import { VIEWS } from "./edit.js";
 import { RECORD_COLUMNS, recordsEach } from "./files.js";
+import { whites } from "./glsl.js";
 import { Images } from "./images.js";
 import { isPair } from "./look.js";
 import { chosenColors, firstHit, gateShader, passColors, passesOf, smallGateShader } from "./maps.js";
@@ -26,7 +27,11 @@ export function checkManifest(room) {
     whole(f.bytes, 0, 2 ** 31);
     whole(f.crc32, 0, 2 ** 32 - 1);
   };
-  const levels = (c) => (number(c.white, 1e-30), number(c.levels, 1, 255));
+  const levels = (c) => {
+    check(!Array.isArray(c.white) || c.white.length === 3);
+    [c.white].flat().forEach((x) => number(x, 1e-30));
+    number(c.levels, 1, 255);
+  };
   const scaled = (c) => {
     check([1, 2, 4, 8].includes(c.scale));
     check(c.width === Math.ceil(room.width / c.scale) && c.height === Math.ceil(room.height / c.scale));
@@ -211,8 +216,8 @@ export class Renderer extends Images {
     terms.sort((a, b) => a.group - b.group).forEach(({ parameter, gain, factors }, i) => {
       const t = lamps.tiles[gain], put = (column, values) => data.set(values, 4 * (columns * i + column));
       put(0, t ? [t.x, t.y, t.width, t.height] : [0, 0, 0, 0]);
-      put(1, [t ? t.scale / lamps.finest : 1, t?.white ?? 1, t?.levels ?? 255, parameter]);
-      put(2, [factors.length, 0, 0, 0]);
+      put(1, [t ? t.scale / lamps.finest : 1, t?.levels ?? 255, parameter, factors.length]);
+      put(2, t ? whites(t) : [1, 1, 1]);
       factors.forEach((m, k) => put(3 + k, [room.mixtureLayers[m], scale(m).width, scale(m).height, scale(m).scale / lamps.finest]));
     });
     this.lampTerms = this.texture(gl.TEXTURE_2D, gl.RGBA32F, columns, terms.length, 0, gl.NEAREST);

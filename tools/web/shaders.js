@@ -1,13 +1,13 @@
 // ---- the shaders of the picture ----
 
 import { SHOWN } from "./develop.js";
-import { FILTER, HEAD, OVERS, SHARE, classCode, imageUniforms, lightCode, number, withTargets } from "./glsl.js";
+import { FILTER, HEAD, OVERS, SHARE, classCode, imageUniforms, lightCode, number, valueCode, withTargets } from "./glsl.js";
 import { firstHitOf } from "./maps.js";
 
 /* An image of the atlas at pixel p of the size that is `finest` times smaller than the picture. */
 function tileCode(room, index, finest) {
   const t = room.reduced.tiles[index];
-  const read = (at) => `light(texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ${at}, 0).rgb, ${number(t.white)}, ${number(t.levels)})`;
+  const read = (at) => valueCode(`texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ${at}, 0)`, t);
   if (t.scale === finest) return read(`min(p, ivec2(${t.width - 1}, ${t.height - 1}))`);
   return `bilinear${index}(p)`;
 }
@@ -15,7 +15,7 @@ function tileCode(room, index, finest) {
 function tileFunction(room, index, finest) {
   const t = room.reduced.tiles[index];
   if (t.scale === finest) return "";
-  const read = (x, y) => `light(texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ivec2(${x}, ${y}), 0).rgb, ${number(t.white)}, ${number(t.levels)})`;
+  const read = (x, y) => valueCode(`texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ivec2(${x}, ${y}), 0)`, t);
   return `vec3 bilinear${index}(ivec2 p) {
     vec2 at = clamp((vec2(p) + 0.5) / ${number(t.scale / finest)} - 0.5, vec2(0.0), vec2(${t.width - 1}, ${t.height - 1}));
     ivec2 a = ivec2(at), b = min(a + 1, ivec2(${t.width - 1}, ${t.height - 1}));
@@ -93,7 +93,7 @@ void main() {
 }
 
 /* The second step where lamps have new colours: for each group that of all light, which is in `all` if group is not -1, plus the sum over its terms of single lamps. There are many, so
- * the shader reads what they are: rows of a texture, with the box of the gain in the atlas; its scale, curve and lamp; and
+ * the shader reads what they are: rows of a texture, with the box of the gain in the atlas; its scale, levels, lamp and number of mixtures; its white; and
  * the layer, size and scale of each mixture. */
 export const lampShader = (room) => `${HEAD}
 uniform sampler2DArray mixtures, all;
@@ -103,23 +103,22 @@ uniform vec2 allSize;
 uniform float times;
 uniform vec3 colors[${room.parameters.length}];
 out vec4 result;
-vec3 share(vec4 box, vec4 how) {
+vec3 share(vec4 box, vec4 how, vec3 white) {
   vec2 at = clamp(gl_FragCoord.xy / how.x - 0.5, vec2(0.0), box.zw - 1.0);
   ivec2 a = ivec2(at), b = min(a + 1, ivec2(box.zw) - 1), o = ivec2(box.xy);
   vec2 f = fract(at);
   return mix(
-    mix(light(texelFetch(tiles, o + a, 0).rgb, how.y, how.z), light(texelFetch(tiles, o + ivec2(b.x, a.y), 0).rgb, how.y, how.z), f.x),
-    mix(light(texelFetch(tiles, o + ivec2(a.x, b.y), 0).rgb, how.y, how.z), light(texelFetch(tiles, o + b, 0).rgb, how.y, how.z), f.x), f.y);
+    mix(light(texelFetch(tiles, o + a, 0).rgb, white, how.y), light(texelFetch(tiles, o + ivec2(b.x, a.y), 0).rgb, white, how.y), f.x),
+    mix(light(texelFetch(tiles, o + ivec2(a.x, b.y), 0).rgb, white, how.y), light(texelFetch(tiles, o + b, 0).rgb, white, how.y), f.x), f.y);
 }
 void main() {
   vec3 sum = vec3(0.0);
   if (group >= 0) sum = texture(all, vec3(clamp(gl_FragCoord.xy / times, vec2(0.5), allSize - 0.5) / vec2(textureSize(all, 0).xy), group)).rgb;
   for (int i = first; i < end; i++) {
     vec4 box = texelFetch(terms, ivec2(0, i), 0), how = texelFetch(terms, ivec2(1, i), 0);
-    int count = int(texelFetch(terms, ivec2(2, i), 0).x);
-    vec3 product = colors[int(how.w)];
-    if (box.z > 0.0) product *= share(box, how);
-    for (int k = 0; k < count; k++) {
+    vec3 product = colors[int(how.z)];
+    if (box.z > 0.0) product *= share(box, how, texelFetch(terms, ivec2(2, i), 0).rgb);
+    for (int k = 0; k < int(how.w); k++) {
       vec4 m = texelFetch(terms, ivec2(3 + k, i), 0);
       vec2 at = clamp(gl_FragCoord.xy / m.w, vec2(0.5), m.yz - 0.5);
       product *= texture(mixtures, vec3(at / vec2(textureSize(mixtures, 0).xy), m.x)).rgb;

@@ -8,13 +8,13 @@
 #include <retex/parallel.h>
 
 #include "io/checksum.h"
+#include "pack/balance.h"
 #include "pack/combine.h"
 #include "pack/model.h"
-#include "retexture/enlarge.h"
 #include "set/set.h"
 
-#define BALANCE_MOST 1.1 /* times a mean is changed at most; where that is not enough, steps become finer */
-
+/* Times a mean is changed at most; where that is not enough, steps become finer. */
+static const double CHANGE_MOST = 1.1;
 static const int EFFORT = 8;                      /* of blosc's zstd */
 static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a slice that this codec cannot encode */
 
@@ -55,6 +55,14 @@ void retex_pack_fill_black(float *levels, const RetexImage *im)
         }
 }
 
+void retex_pack_keep_black(RetexImage *decoded, const RetexImage *im)
+{
+    const size_t channels = (size_t)im->channels;
+    for (size_t i = 0; i < retex_image_index(im, 0, im->height); i += channels)
+        if (is_black(im->pixels + i, channels))
+            memset(decoded->pixels + i, 0, sizeof *decoded->pixels * channels);
+}
+
 /* Levels of an image, clipped to at most `most`. NULL if memory runs out. */
 static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, double most)
 {
@@ -92,12 +100,6 @@ static int encode_mask_strip(RetexPackItem *item, int strip, RetexError *err)
     return bytes < 0 ? no_memory(err) : 0;
 }
 
-/* ---- means of what is decoded ----
- *
- * Levels are rounded on a curve, so that the mean of what they stand for is another one, and the more so the coarser
- * the steps are. Light and gains are multiplied by what restores it: of a gain the mean of the decoded light times the
- * decoded gain, enlarged. So each lamp, and each finish, keeps its mean in every channel. */
-
 static int decode_strip(RetexImage *image, RetexPackJpegDecoder *decoder, const RetexPackItem *item, int strip,
                         RetexError *err)
 {
@@ -128,78 +130,31 @@ static int decode(RetexImage *image, const RetexPackItem *item, RetexError *err)
     for (int strip = 0; strip < item->packed->nstrips && !code; strip++)
         code = decode_strip(image, decoder, item, strip, err);
     retex_pack_jpeg_decoder_close(&decoder);
-    for (int y = 0; y < im->height && !code; y++)
-        for (int x = 0; x < im->width; x++)
-            if (is_black(im->pixels + retex_image_index(im, x, y), (size_t)im->channels))
-                memset(image->pixels + retex_image_index(image, x, y), 0, sizeof *image->pixels * (size_t)im->channels);
+    if (!code)
+        retex_pack_keep_black(image, im);
     return code;
-}
-
-/* Sums by channel of an image, or of light times a gain, enlarged. */
-static int sum_light(double sum[3], const RetexImage *light /* or NULL */, const RetexImage *image, RetexError *err)
-{
-    const RetexImage *size = light ? light : image;
-    const int scale = (size->width + image->width - 1) / image->width;
-    float *row = malloc(sizeof *row * 3 * (size_t)size->width);
-    sum[0] = sum[1] = sum[2] = 0;
-    for (int y = 0; y < size->height && row; y++) {
-        retex_enlarge_rows(image, scale, size->width, y, y + 1, row);
-        const float *of = light ? light->pixels + retex_image_index(light, 0, y) : NULL;
-        for (int i = 0; i < 3 * size->width; i++)
-            sum[i % 3] += (double)row[i] * (of ? (double)of[i] : 1);
-    }
-    free(row);
-    return row ? RETEX_OK : no_memory(err);
-}
-
-static int is_balanced(const double times[3])
-{
-    int balanced = 1;
-    for (int c = 0; c < 3; c++)
-        balanced = balanced && times[c] <= BALANCE_MOST && times[c] >= 1 / BALANCE_MOST;
-    return balanced;
 }
 
 /* light: of a gain the item of its light; of light the item itself. *finer: 1 if steps are too coarse. */
 static int restore_mean(RetexPackItem *item, const RetexPackItem *light, int *finer, RetexError *err)
 {
-    const int is_gain = light != item;
+    const RetexImage *own = NULL, *kept = NULL;
     RetexImage made = {0};
-    double wanted[3], is[3], times[3] = {1, 1, 1};
+    double change = 1;
+    if (light != item) {
+        own = &light->part->image;
+        kept = light->decoded.pixels ? &light->decoded : own;
+    }
     int code = decode(&made, item, err);
     if (!code)
-        code = sum_light(wanted, is_gain ? &light->part->image : NULL, &item->part->image, err);
-    if (!code)
-        code = sum_light(is,
-                         !is_gain                ? NULL
-                         : light->decoded.pixels ? &light->decoded
-                                                 : &light->part->image,
-                         &made, err);
-    for (int c = 0; c < 3 && !code; c++)
-        times[c] = is[c] > 0 && wanted[c] > 0 ? wanted[c] / is[c] : wanted[c] > 0 ? INFINITY : 1;
-    *finer = !code && !is_balanced(times) && item->packed->jpeg_step >= 2;
-    for (int c = 0; c < 3 && !code; c++)
-        times[c] = isfinite(times[c]) ? times[c] : 1, item->packed->curve.white[c] *= times[c];
-    for (size_t i = 0; i < retex_image_index(&made, 0, made.height) && !code && !is_gain; i++)
-        made.pixels[i] *= (float)times[i % 3];
+        code = retex_pack_restore_mean(&item->packed->curve, &made, &item->part->image, own, kept, &change, err);
+    *finer = change > CHANGE_MOST && item->packed->jpeg_step >= 2;
     retex_image_free(&item->decoded);
-    if (!code && !is_gain)
+    if (!code && !own)
         item->decoded = made;
     else
         retex_image_free(&made);
     return code;
-}
-
-/* The part of light that a part is, or that it is a gain of; -1: neither. */
-static int light_of(const RetexSet *set, int part)
-{
-    int light = -1;
-    for (int t = 0; t < set->nterms && part > 0; t++) {
-        const RetexTerm *term = &set->terms[t];
-        if (term->radiance == part || retex_term_image(term) == part)
-            light = term->radiance;
-    }
-    return light;
 }
 
 static int has_black(const RetexImage *im)
@@ -430,7 +385,7 @@ static void encode_whole(void *context, int index, int thread)
 {
     RetexPackEncoded *w = context;
     RetexPackItem *item = &w->items[index];
-    const int light = index < w->set->nparts ? light_of(w->set, index) : -1;
+    const int light = index < w->set->nparts ? retex_pack_light_of(w->set, index) : -1;
     (void)thread;
     if ((light >= 0 && light != index) != w->gains)
         return;

@@ -11,7 +11,7 @@ typedef struct RetexPackItem {
     unsigned char **slices; /* malloc'ed each, except a JPEG's, which point into jpeg.data */
     RetexPackJpeg jpeg;
     RetexImage decoded; /* of light, while its gains are encoded */
-    uint32_t crc; /* of the part's samples */
+    uint32_t crc;       /* of the part's samples */
     int code;
     RetexError err;
 } RetexPackItem;
@@ -37,5 +37,7 @@ void retex_pack_encoded_free(RetexPackEncoded *encoded); /* accepts one that is 
 /* Fill black pixels of an image with the mean of the other pixels of their 8 x 8 block. A mask restores them, so their
  * levels are free; the mean costs few bytes and avoids ringing at edges of black areas. */
 void retex_pack_fill_black(float *levels, const RetexImage *im);
+/* Make those pixels of what was decoded black, as the mask does. */
+void retex_pack_keep_black(RetexImage *decoded, const RetexImage *im);
 
 #endif

@@ -143,8 +143,7 @@ static json_t *describe_map(const RetexPackMap *map)
     return o;
 }
 
-/* One number, or one for each channel. */
-static json_t *describe_white(const RetexPackCurve *curve)
+json_t *retex_pack_describe_white(const RetexPackCurve *curve)
 {
     const double *white = curve->white;
     return white[0] == white[1] && white[0] == white[2] ? json_real(white[0])
@@ -155,7 +154,7 @@ static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart 
 {
     json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", retex_pack_codec_names[packed->codec]);
     if (packed->codec == RETEX_PACK_JPEG) {
-        retex_json_put(&o, "white", describe_white(&packed->curve));
+        retex_json_put(&o, "white", retex_pack_describe_white(&packed->curve));
         retex_json_put(&o, "levels", json_real(packed->curve.levels));
         retex_json_put(&o, "masked", json_boolean(packed->masked));
     }
@@ -284,6 +283,7 @@ static int named_part(const json_t *o, const char *key, const RetexSet *set, con
     return part;
 }
 
+/* The way back. */
 static int parse_white(RetexPackCurve *curve, const json_t *o)
 {
     int ok = !json_is_array(o) || json_array_size(o) == 3;

@@ -2,6 +2,8 @@
 #ifndef RETEX_PACK_FORMAT_H
 #define RETEX_PACK_FORMAT_H
 
+#include <jansson.h>
+
 #include <retex/pack.h>
 
 #include "pack/jpeg.h"
@@ -71,6 +73,9 @@ int retex_pack_damaged(RetexError *err, const char *what, const char *name);
 
 /* CRC-32 of a part's samples in their stored type: see RetexPart. */
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
+
+/* A curve's white in manifests, of pages too: one number, or one for each channel. */
+json_t *retex_pack_describe_white(const RetexPackCurve *curve);
 
 /* Smaller sets in a pack: how many times smaller they are, from the largest on, 2..RETEX_PACK_LEVEL_SCALE_MAX. */
 typedef struct RetexPackScales {

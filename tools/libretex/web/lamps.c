@@ -9,7 +9,7 @@
 #include <retex/color.h>
 #include <retex/host/set_build.h>
 
-#include "compact/light.h"
+#include "compact/gains.h"
 #include "retexture/enlarge.h"
 #include "set/parts.h"
 #include "set/set.h"
@@ -305,7 +305,7 @@ static int join(RetexSet *set, const char joined[RETEX_PARAMETERS_MAX], int into
 
 /* ---- sizes ---- */
 
-/* Make a gain twice as coarse: blocks' shares of light, and means where there is none. */
+/* Make a gain twice as coarse: blocks' shares of light, and means where there is none. All its light stays. */
 static int halve(RetexSet *set, const RetexTerm *term, RetexError *err)
 {
     const int part = retex_term_image(term);
@@ -328,7 +328,11 @@ static int halve(RetexSet *set, const RetexTerm *term, RetexError *err)
             coarse.pixels[at] = (float)(all > 0 ? own / all : sum / count);
         }
     if (!code)
+        code = retex_compact_gain_end(&coarse, light, 2 * retex_set_scale(set, gain), err);
+    if (!code)
         replace_image(set, part, &coarse);
+    else
+        retex_image_free(&coarse);
     return code;
 }
 

@@ -11,6 +11,7 @@
 #include "base/json_write.h"
 #include "base/params.h"
 #include "compact/compact.h"
+#include "pack/balance.h"
 #include "pack/plan.h"
 #include "set/set.h"
 #include "web/folder.h"
@@ -41,6 +42,7 @@ typedef struct Web {
     RetexWebFile picture, *lights, *streams; /* streams by class, the others by number */
     int *light_parts, nlights;
     RetexPackCurve *curves; /* of lights */
+    RetexImage *decoded;    /* by part: what browsers make of light */
     Atlas reduced, lamps;
     char joined[1024]; /* names of the lamps that are in `rest` */
 } Web;
@@ -48,6 +50,14 @@ typedef struct Web {
 static int no_memory(RetexError *err)
 {
     return retex_fail(err, RETEX_ENOMEM, "no memory to write a folder for browsers");
+}
+
+static void free_decoded(Web *web)
+{
+    for (int i = 0; web->decoded && web->set && i < web->set->nparts; i++)
+        retex_image_free(&web->decoded[i]);
+    free(web->decoded);
+    web->decoded = NULL;
 }
 
 static void web_close(Web *web)
@@ -58,6 +68,7 @@ static void web_close(Web *web)
         free(web->streams[i].data);
     for (int i = 0; web->packed && web->set && i < web->set->nparts; i++)
         retex_pack_part_free(&web->packed[i]);
+    free_decoded(web);
     free(web->picture.data);
     free(web->reduced.file.data);
     free(web->lamps.file.data);
@@ -164,34 +175,36 @@ static int encode_picture(Web *web, RetexError *err)
     return code;
 }
 
-static int encode_atlas(Web *web, Atlas *atlas, const char *name, RetexError *err)
+static int encode_atlas(Web *web, Atlas *atlas, const char *name, int nthreads, RetexError *err)
 {
     RetexPackJpeg jpeg = {0};
     if (!atlas->ntiles)
         return RETEX_OK;
     int code = retex_web_atlas_encode(&jpeg, atlas->tiles, atlas->ntiles, &atlas->width, &atlas->height, web->set,
-                                      web->packed, err);
+                                      web->packed, web->decoded, nthreads, err);
     if (!code)
         take_jpeg(&atlas->file, &jpeg, name);
     return code;
 }
 
-static int encode(Web *web, RetexError *err)
+static int encode(Web *web, int nthreads, RetexError *err)
 {
     const RetexSet *set = web->set;
     RetexPackJpeg jpeg = {0};
     int code = encode_picture(web, err);
     for (int i = 0; i < web->nlights && !code; i++) {
         const int part = web->light_parts[i];
-        code = retex_web_light_encode(&jpeg, &web->curves[i], &set->parts[part], &web->packed[part],
+        RetexImage *decoded = retex_pack_light_of(set, part) == part ? &web->decoded[part] : NULL;
+        code = retex_web_light_encode(&jpeg, &web->curves[i], decoded, &set->parts[part], &web->packed[part],
                                       is_sharp_light(web, part), err);
         if (!code)
             take_jpeg(&web->lights[i], &jpeg, set->parts[part].name);
     }
     if (!code)
-        code = encode_atlas(web, &web->reduced, "reduced", err);
+        code = encode_atlas(web, &web->reduced, "reduced", nthreads, err);
     if (!code)
-        code = encode_atlas(web, &web->lamps, "lamps", err);
+        code = encode_atlas(web, &web->lamps, "lamps", nthreads, err);
+    free_decoded(web);
     for (int i = 0; i < web->model.nclasses && !code; i++) {
         const RetexWebClass *c = &web->model.classes[i];
         RetexWebFile *file = &web->streams[i];
@@ -257,14 +270,15 @@ static int web_open(Web *web, const RetexSet *set, const RetexWebParams *params,
     web->streams = calloc((size_t)web->model.nclasses + 1, sizeof *web->streams);
     web->light_parts = calloc(count, sizeof *web->light_parts);
     web->curves = calloc(count, sizeof *web->curves);
+    web->decoded = calloc(count, sizeof *web->decoded);
     web->reduced.tiles = calloc(count, sizeof *web->reduced.tiles);
     web->lamps.tiles = calloc(count, sizeof *web->lamps.tiles);
-    if (!web->packed || !web->lights || !web->streams || !web->light_parts || !web->curves || !web->reduced.tiles ||
-        !web->lamps.tiles)
+    if (!web->packed || !web->lights || !web->streams || !web->light_parts || !web->curves || !web->decoded ||
+        !web->reduced.tiles || !web->lamps.tiles)
         return no_memory(err);
     list_images(web);
     code = retex_pack_plan(web->packed, web->set, &quantizer, nthreads, err);
-    return code ? code : encode(web, err);
+    return code ? code : encode(web, nthreads, err);
 }
 
 /* ---- the manifest ---- */
@@ -277,7 +291,7 @@ static json_t *describe_file(const RetexWebFile *file)
 
 static void put_curve(json_t **object, const RetexPackCurve *curve)
 {
-    retex_json_put(object, "white", json_real(curve->white[0]));
+    retex_json_put(object, "white", retex_pack_describe_white(curve));
     retex_json_put(object, "levels", json_real(curve->levels));
 }
 
