@@ -17,8 +17,8 @@
 static const double WHITE_LEVEL_LEAST = 160;
 static const double GAMMA = 2.4;       /* of sRGB */
 static const double LEVELS_LEAST = 16; /* of a tile in an atlas */
-/* Times a mean is changed at most: beyond that few texels would have the light of all, and steps become finer. With 1.1,
- * as packs have, rooms with lamps took up to two thirds more bytes, and blocks were no better. */
+/* Times a mean is changed at most: beyond that few texels would have the light of all, and steps become finer. With
+ * 1.1, as packs have, rooms with lamps took up to two thirds more bytes, and blocks were no better. */
 static const double CHANGE_MOST = 8;
 enum { TILE = 8 }; /* sides of JPEG's blocks */
 

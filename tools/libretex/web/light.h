@@ -12,8 +12,8 @@ typedef struct RetexWebTile {
     RetexPackCurve curve;
 } RetexWebTile;
 
-/* Encode a part alone. filled: 1 = pixels that are black are never looked at. *curve: what its levels stand for. decoded:
- * of light what browsers make of it, with the mean that it had; NULL = of albedo. */
+/* Encode a part alone. filled: 1 = pixels that are black are never looked at. *curve: what its levels stand for.
+ * decoded: of light what browsers make of it, with the mean that it had; NULL = of albedo. */
 int retex_web_light_encode(RetexPackJpeg *jpeg, RetexPackCurve *curve, RetexImage *decoded, const RetexPart *part,
                            const RetexPackPart *packed, int filled, RetexError *err);
 /* Place images beside and below each other and encode them together; gains get the means of their light. decoded: by
