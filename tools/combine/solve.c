@@ -8,14 +8,12 @@
 
 #define CLIPPED 0.98 /* from where values of a picture that has none above 1 may have been clipped */
 #define PSNR_MAX 120.0
-#define NEAR 1e-4                     /* of a mean to the colour that is wanted */
-#define FARTHEST 4.0                  /* times that colour are aimed at */
 #define MEMORY ((uint64_t)8192 << 20) /* of the set, unless --memory says otherwise: it is read some twenty times */
 
-#define FAR 2.5e-5 /* mean square of encoded colours, from where other beginnings are tried: a PSNR of 46 dB */
-#define NEARER 0.9 /* of the distance */
-
-enum { ROUNDS = 8 }; /* in which a colour is approached */
+/* From where other beginnings are tried. */
+#define FAR 2.5e-5       /* mean square of encoded colours: a PSNR of 46 dB */
+#define FAR_COLOR 0.0025 /* square of CIEDE2000 */
+#define NEARER 0.9       /* of the distance */
 
 int job_solve_is_color(const Job *job)
 {
@@ -185,19 +183,24 @@ static Difference measure(const Job *job, const RetexImage *made, const RetexIma
     return d;
 }
 
-static void print_difference(const Difference *d, const float *color /* or NULL */)
+static double color_difference(const Difference *d, const float *color)
 {
     double lab[3], wanted[3], linear[3];
-    printf("difference: %.4g rms, PSNR %.2f dB, %.0f pixels\n", sqrt(d->square),
-           fmin(-10 * log10(fmax(d->encoded_square, 1e-13)), PSNR_MAX), d->count);
-    if (!color)
-        return;
     for (int c = 0; c < 3; c++)
         linear[c] = (double)color[c];
     retex_lab(lab, d->means);
     retex_lab(wanted, linear);
+    return retex_delta_e(lab, wanted);
+}
+
+static void print_difference(const Difference *d, const float *color /* or NULL */)
+{
+    printf("difference: %.4g rms, PSNR %.2f dB, %.0f pixels\n", sqrt(d->square),
+           fmin(-10 * log10(fmax(d->encoded_square, 1e-13)), PSNR_MAX), d->count);
+    if (!color)
+        return;
     printf("mean: srgb(%.4f,%.4f,%.4f), CIEDE2000 %.2f\n", encoded((float)d->means[0]), encoded((float)d->means[1]),
-           encoded((float)d->means[2]), retex_delta_e(lab, wanted));
+           encoded((float)d->means[2]), color_difference(d, color));
 }
 
 /* ---- all of it ---- */
@@ -229,19 +232,6 @@ static int make_picture(const Cli *cli, Job *job, const RetexSolution *solution,
     return code;
 }
 
-/* Of a colour the mean of the region counts, not each pixel: places that are brighter there than the mean, or darker,
- * would pull it down. So what is aimed at is changed until the mean is the colour that is wanted. */
-static int move_aim(RetexImage *aim, const RetexImage *wanted, const Difference *d)
-{
-    int moves = 0;
-    for (size_t i = 0; i < retex_image_index(aim, 0, aim->height); i++) {
-        const double mean = d->means[i % 3], old = (double)aim->pixels[i], color = (double)wanted->pixels[i];
-        aim->pixels[i] = (float)fmin(mean > 0 ? old * color / mean : old, FARTHEST * color);
-        moves |= fabs(mean - color) > NEAR && fabs((double)aim->pixels[i] - old) > NEAR;
-    }
-    return moves;
-}
-
 /* What is solved, and what was found. */
 typedef struct Solving {
     const RetexImage *picture;
@@ -250,35 +240,26 @@ typedef struct Solving {
     RetexSolution *solution;
     RetexImage made;
     Difference difference;
-    double far; /* how far it is from the picture, or its mean from the colour: a mean square of encoded colours */
+    double far; /* how far it is: a mean square of encoded colours, or that of CIEDE2000 of the mean from a colour */
 } Solving;
 
 static double distance(const Job *job, const Difference *d, const RetexImage *picture)
 {
-    double sum = 0;
-    for (int c = 0; c < 3 && job_solve_is_color(job); c++)
-        sum += pow(encoded((float)d->means[c]) - encoded(picture->pixels[c]), 2);
-    return job_solve_is_color(job) ? sum : d->encoded_square;
+    const double far = job_solve_is_color(job) ? color_difference(d, picture->pixels) : 0;
+    return job_solve_is_color(job) ? far * far : d->encoded_square;
 }
 
-/* Solves, of a colour in rounds. */
 static int approach(const Cli *cli, Job *job, Solving *s, const RetexSolveParams *params, RetexError *err)
 {
-    RetexImage aim = {0};
-    int code = s->made.pixels ? RETEX_OK : retex_image_alloc(&s->made, s->picture->width, s->picture->height, 3, err);
+    int code = retex_image_alloc(&s->made, s->picture->width, s->picture->height, 3, err);
     if (!code)
-        code = retex_image_copy(&aim, s->picture, err);
-    for (int round = 0, more = 1; round < ROUNDS && more && !code; round++) {
-        retex_solution_close(&s->solution);
-        code = retex_solve(&s->solution, job->set, job->samples, s->given->textures, &aim, params, cli->threads, err);
-        if (!code)
-            code = make_picture(cli, job, s->solution, &s->kept, &s->made, err);
-        if (!code)
-            s->difference = measure(job, &s->made, s->picture);
-        more = !code && job_solve_is_color(job) && move_aim(&aim, s->picture, &s->difference);
-    }
+        code = retex_solve(&s->solution, job->set, job->samples, s->given->textures, s->picture, params, cli->threads,
+                           err);
+    if (!code)
+        code = make_picture(cli, job, s->solution, &s->kept, &s->made, err);
+    if (!code)
+        s->difference = measure(job, &s->made, s->picture);
     s->far = code ? 0 : distance(job, &s->difference, s->picture);
-    retex_image_free(&aim);
     return code;
 }
 
@@ -350,12 +331,13 @@ static int solve(const Cli *cli, Job *job, const RetexImage *picture, RetexImage
     params.cross = job->combine.cross;
     params.lights = job->lights;
     params.budget = cli->budget;
+    params.mean = is_color;
     int code = kept_textures_load(&given, job->set, job->textures.specs, job->textures.count, cli->threads, err);
     if (!code)
         code = retex_set_preload(job->set, job->samples, NULL, memory, cli->threads, err);
     if (!code)
         code = approach(cli, job, &best, &params, err);
-    if (!code && best.far > FAR)
+    if (!code && best.far > (is_color ? FAR_COLOR : FAR))
         code = begin_again(cli, job, &best, &params, err);
     if (!code)
         code = print_solution(best.solution, err);

@@ -1,9 +1,11 @@
 /* The difference of two colours as CIEDE2000: G. Sharma, W. Wu and E. N. Dalal, 'The CIEDE2000 color-difference
  * formula: implementation notes, supplementary test data, and mathematical observations' (2005). See
  * <retex/metrics.h>. */
-#include <retex/metrics.h>
+#include "base/delta_e.h"
 
 #include <math.h>
+
+#include <retex/metrics.h>
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
@@ -39,7 +41,7 @@ static double hue_of(double a, double b)
     return hue < 0 ? hue + 360 : hue;
 }
 
-double retex_delta_e(const double a[3], const double b[3])
+void retex_delta_e_parts(double parts[3], const double a[3], const double b[3])
 {
     const double grey = 1.5 - 0.5 * sqrt(chroma_share((hypot(a[1], a[2]) + hypot(b[1], b[2])) / 2));
     const double chroma1 = hypot(grey * a[1], a[2]), chroma2 = hypot(grey * b[1], b[2]);
@@ -58,5 +60,15 @@ double retex_delta_e(const double a[3], const double b[3])
     const double dc = (chroma2 - chroma1) / (1 + 0.045 * chroma);
     const double dh = 2 * sqrt(chroma1 * chroma2) * sin(hue_turn / 2 * DEGREE) / (1 + 0.015 * chroma * t);
     const double blue = exp(-(hue - 275) / 25 * ((hue - 275) / 25));
-    return sqrt(dl * dl + dc * dc + dh * dh - 2 * sqrt(chroma_share(chroma)) * sin(60 * blue * DEGREE) * dc * dh);
+    const double turned = -sqrt(chroma_share(chroma)) * sin(60 * blue * DEGREE);
+    parts[0] = dl;
+    parts[1] = dc + turned * dh;
+    parts[2] = sqrt(1 - turned * turned) * dh;
+}
+
+double retex_delta_e(const double a[3], const double b[3])
+{
+    double parts[3];
+    retex_delta_e_parts(parts, a, b);
+    return sqrt(parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2]);
 }

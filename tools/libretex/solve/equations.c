@@ -27,11 +27,11 @@ typedef struct Evaluation {
     RetexTexture *textures[RETEX_MAX_TARGETS];                   /* by target, of those that are sought */
     RetexTexture *higher[RETEX_MAX_TARGETS];                     /* the same */
     RetexTexture *all[1 + RETEX_MAX_TARGETS][RETEX_MAX_TARGETS]; /* of each polynomial; borrowed */
-    signed char *term_column; /* by term, the column of its lamp; -1: none is sought */
-    float common[3];          /* what lamps that are sought have in common with those that are given, */
-    int least[3];             /* and the parameter that has no more; see retex_polynomial_common */
+    signed char *term_column;                 /* by term, the column of its lamp; -1: none is sought */
+    float common[3];                          /* what lamps that are sought have in common with those that are given, */
+    int least[3];                             /* and the parameter that has no more; see retex_polynomial_common */
     float values_of[RETEX_PARAMETERS_MAX][3]; /* parameters, with lamps as they are sought here */
-    RetexEquations *strips;   /* by strip */
+    RetexEquations *strips;                   /* by strip */
 } Evaluation;
 
 /* Memory of one strip. */
@@ -81,9 +81,9 @@ static int open_textures(Evaluation *e, RetexError *err)
 static int open_polynomial(RetexPolynomial *p, const Evaluation *e, int number, int nthreads, RetexError *err)
 {
     const RetexSolveModel *m = e->model;
-    const int code = retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
-                                           m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED,
-                                           nthreads, err);
+    const int code =
+        retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
+                              m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED, nthreads, err);
     if (!code)
         p->columns = (RetexRowSpan){m->combine.x0, m->combine.x1};
     return code;
@@ -334,7 +334,11 @@ static void add_blocks(RetexEquations *sums, StripRows *s, const RetexSolveModel
             const double scale = fabs(of[1] / of[0]) + m->dark, w = 1 / (of[0] * scale * scale);
             sums->count[c]++;
             sums->square[c] += w * of[2] * of[2];
+            sums->pixels[c] += of[0];
+            sums->wanted[c] += of[1];
+            sums->difference[c] += of[2];
             for (int j = 0; j < m->ncolumns; j++) {
+                sums->slope[c][j] += of[3 + j];
                 sums->gradient[c][j] += w * of[2] * of[3 + j];
                 for (int k = 0; k <= j; k++)
                     sums->matrix[c][j][k] += w * of[3 + j] * of[3 + k];
@@ -397,7 +401,11 @@ static void add_strip(RetexEquations *sum, const RetexEquations *strip, int ncol
     for (int c = 0; c < 3; c++) {
         sum->count[c] += strip->count[c];
         sum->square[c] += strip->square[c];
+        sum->pixels[c] += strip->pixels[c];
+        sum->wanted[c] += strip->wanted[c];
+        sum->difference[c] += strip->difference[c];
         for (int i = 0; i < ncolumns; i++) {
+            sum->slope[c][i] += strip->slope[c][i];
             sum->gradient[c][i] += strip->gradient[c][i];
             for (int j = 0; j <= i; j++)
                 sum->matrix[c][i][j] += strip->matrix[c][i][j];

@@ -39,6 +39,8 @@ typedef struct RetexEquations {
     double count[3], square[3];
     double gradient[3][RETEX_UNKNOWNS_MAX];
     double matrix[3][RETEX_UNKNOWNS_MAX][RETEX_UNKNOWNS_MAX]; /* [i][j], j <= i */
+    double pixels[3], wanted[3], difference[3]; /* sums over pixels: their number, the picture, what exceeds it, */
+    double slope[3][RETEX_UNKNOWNS_MAX];        /* and its derivatives */
 } RetexEquations;
 
 /* Evaluate them for these values of all numbers. */

@@ -5,11 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/metrics.h>
+
+#include "base/delta_e.h"
 #include "base/params.h"
 #include "set/set.h"
 #include "solve/unknowns.h"
 
-enum { NUMBERS_MAX = 3 * RETEX_UNKNOWNS_MAX, STEPS_MAX = 40 };
+enum {
+    NUMBERS_MAX = 3 * RETEX_UNKNOWNS_MAX,
+    STEPS_MAX = 40,
+    SIDE = 15,     /* of a grid of colours */
+    STRENGTHS = 24 /* of lamps, four a decade: 10^-2.75 to 10^3 */
+};
 
 #define BLOCK_MAX 32       /* pixels */
 #define BLOCKS 64          /* that are enough */
@@ -20,6 +28,10 @@ enum { NUMBERS_MAX = 3 * RETEX_UNKNOWNS_MAX, STEPS_MAX = 40 };
 #define VAGUE 0.25         /* standard error of what is not seen; of lamps times their strength if that is above 1 */
 #define NOISE_MAX 0.2      /* relative; if more is left, it is no noise, and makes nothing unseen */
 #define TINY 1e-6          /* what is less counts as 0 */
+#define NUDGE 1e-4         /* of a mean, for derivatives of differences of colours */
+#define LESSENS 0.1        /* a step that is to change a mean leaves so much of a number: black has no hue; unless it */
+#define MET 0.0025         /* square of CIEDE2000 of a mean that is met */
+#define DARK 1e-3          /* is as small as that */
 #define SURE 20.0          /* logarithm of the odds, twice, from which a finish is seen */
 
 /* A point of the search, and the equations there. */
@@ -45,7 +57,8 @@ typedef struct Search {
     float parameters[3 * RETEX_PARAMETERS_MAX];
     Normal normal;
     double lower[NUMBERS_MAX][NUMBERS_MAX]; /* its Cholesky factor */
-    Point here, next;
+    Point here, next, kept;
+    const double *aim; /* a mean in place of the picture's, or NULL */
     double squares[RETEX_SOLVE_FINISHES_MAX], counted;
 } Search;
 
@@ -92,6 +105,49 @@ static void gather(Normal *normal, const RetexEquations *sums, const RetexSolveM
     }
 }
 
+static double mean_of(const RetexEquations *sums, int channel)
+{
+    return (sums->wanted[channel] + sums->difference[channel]) / fmax(sums->pixels[channel], 1);
+}
+
+/* The difference of a colour from the picture's mean, or from what is aimed at, as CIEDE2000 has it: three parts, and the
+ * sum of their squares. */
+static double compare_colors(double parts[3], const RetexEquations *sums, const double *aim, const double color[3])
+{
+    double wanted[3], lab[3];
+    for (int c = 0; c < 3; c++)
+        wanted[c] = aim ? aim[c] : sums->wanted[c] / fmax(sums->pixels[c], 1);
+    retex_lab(wanted, wanted);
+    retex_lab(lab, color);
+    retex_delta_e_parts(parts, wanted, lab);
+    return parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
+}
+
+/* The equations of the mean in place of those of blocks. */
+static void gather_mean(Normal *normal, const RetexEquations *sums, const RetexSolveModel *m, int numbers,
+                        const double *aim)
+{
+    double parts[3], ahead[3], rows[3][NUMBERS_MAX] = {{0}}, mean[3];
+    for (int c = 0; c < 3; c++)
+        mean[c] = mean_of(sums, c);
+    *normal = (Normal){.n = numbers, .count = 3, .square = compare_colors(parts, sums, aim, mean)};
+    for (int c = 0; c < 3; c++) {
+        double moved[3] = {mean[0], mean[1], mean[2]};
+        moved[c] += NUDGE;
+        compare_colors(ahead, sums, aim, moved);
+        for (int i = 0; i < m->ncolumns; i++)
+            for (int k = 0; k < 3; k++)
+                rows[k][m->columns[i].number[c]] +=
+                    (ahead[k] - parts[k]) / NUDGE * sums->slope[c][i] / fmax(sums->pixels[c], 1);
+    }
+    for (int i = 0; i < numbers; i++)
+        for (int k = 0; k < 3; k++) {
+            normal->gradient[i] += parts[k] * rows[k][i];
+            for (int j = 0; j < numbers; j++)
+                normal->matrix[i][j] += rows[k][i] * rows[k][j];
+        }
+}
+
 /* Whether a number changes the picture. */
 static int has_effect(const Normal *normal, int i)
 {
@@ -135,19 +191,32 @@ static void find_moves(int *moves, const Search *s, const double *values)
                    !(values[i] >= s->most[i] && s->normal.gradient[i] < 0);
 }
 
+/* Three numbers of a mean leave many solutions: the one is taken for which values change least. */
+static void prefer_near(Normal *normal, const int *moves, double damping)
+{
+    double most = 0;
+    for (int i = 0; i < normal->n; i++)
+        most = moves[i] ? fmax(most, normal->matrix[i][i]) : most;
+    for (int i = 0; i < normal->n; i++)
+        normal->matrix[i][i] += damping * most;
+}
+
 /* Values after a step; returns the largest change. */
 static double take_step(double *next, Search *s, const double *values, double damping)
 {
     double step[NUMBERS_MAX], most = 0;
     int moves[NUMBERS_MAX] = {0};
     find_moves(moves, s, values);
-    factorize(s->lower, &s->normal, moves, damping);
+    if (s->params->mean)
+        prefer_near(&s->normal, moves, damping);
+    factorize(s->lower, &s->normal, moves, s->params->mean ? 0 : damping);
     for (int i = 0; i < s->numbers; i++)
         step[i] = moves[i] ? -s->normal.gradient[i] / sqrt(s->normal.matrix[i][i]) : 0;
     substitute(step, s->lower, s->numbers);
     for (int i = 0; i < s->numbers; i++) {
         const double change = moves[i] ? step[i] / sqrt(s->normal.matrix[i][i]) : 0;
-        next[i] = fmin(fmax(values[i] + change, 0), s->most[i]);
+        const double least = s->params->mean && values[i] > DARK ? values[i] * LESSENS : 0;
+        next[i] = fmin(fmax(values[i] + change, least), s->most[i]);
         most = fmax(most, fabs(next[i] - values[i]));
     }
     return most;
@@ -158,18 +227,34 @@ static int evaluate(Search *s, Point *point, RetexSolveRows rows, RetexError *er
     return retex_equations_make(&point->sums, &s->model, point->values, rows, s->nthreads, err);
 }
 
+/* What is minimised. */
+static double square_of(const Search *s, const RetexEquations *sums)
+{
+    double parts[3], mean[3] = {mean_of(sums, 0), mean_of(sums, 1), mean_of(sums, 2)};
+    return s->params->mean ? compare_colors(parts, sums, s->aim, mean)
+                           : sums->square[0] + sums->square[1] + sums->square[2];
+}
+
+static double first_color(double value)
+{
+    return fmin(fmax(value, 0.05), 0.95);
+}
+
 /* Goes from s->here to the nearest minimum. */
 static int descend(Search *s, RetexSolveRows rows, RetexError *err)
 {
     double damping = 1e-3;
     int code = evaluate(s, &s->here, rows, err);
     for (int step = 0; step < STEPS_MAX && !code && damping < 1e8; step++) {
-        gather(&s->normal, &s->here.sums, &s->model, s->numbers);
+        if (s->params->mean)
+            gather_mean(&s->normal, &s->here.sums, &s->model, s->numbers, s->aim);
+        else
+            gather(&s->normal, &s->here.sums, &s->model, s->numbers);
         const double square = s->normal.square;
         if (take_step(s->next.values, s, s->here.values, damping) < 1e-6)
             break;
         code = evaluate(s, &s->next, rows, err);
-        const double *squares = s->next.sums.square, reached = squares[0] + squares[1] + squares[2];
+        const double reached = square_of(s, &s->next.sums);
         if (!code && reached < square) {
             s->here = s->next;
             damping = fmax(damping / 30, 1e-9);
@@ -181,6 +266,101 @@ static int descend(Search *s, RetexSolveRows rows, RetexError *err)
     }
     if (!code)
         gather(&s->normal, &s->here.sums, &s->model, s->numbers);
+    return code;
+}
+
+/* ---- means ---- */
+
+/* The colour between low and high that is nearest to what is wanted: on a grid of cube roots, and on finer ones about the
+ * best. Returns the square of the difference. */
+static double find_nearest(double nearest[3], const double low[3], const double high[3], const RetexEquations *sums)
+{
+    double begin[3], end[3], least = HUGE_VAL;
+    for (int c = 0; c < 3; c++)
+        begin[c] = cbrt(low[c]), end[c] = cbrt(high[c]);
+    for (int round = 0; round < 5; round++) {
+        double best[3] = {0};
+        for (int k = 0; k < SIDE * SIDE * SIDE; k++) {
+            const int at[3] = {k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE};
+            double root[3], color[3], parts[3];
+            for (int c = 0; c < 3; c++) {
+                root[c] = begin[c] + (end[c] - begin[c]) * at[c] / (SIDE - 1);
+                color[c] = root[c] * root[c] * root[c];
+            }
+            const double square = compare_colors(parts, sums, NULL, color);
+            if (square >= least)
+                continue;
+            least = square;
+            memcpy(best, root, sizeof best);
+            memcpy(nearest, color, sizeof color);
+        }
+        for (int c = 0; c < 3 && best[0] + best[1] + best[2] > 0; c++) {
+            const double step = (end[c] - begin[c]) * 2 / (SIDE - 1);
+            begin[c] = fmax(best[c] - step, cbrt(low[c]));
+            end[c] = fmin(best[c] + step, cbrt(high[c]));
+        }
+    }
+    return least;
+}
+
+/* What of the means that colours can make where lamps have these values is nearest: colours make all between what the
+ * darkest and the brightest make, by channel. */
+static int find_mean(Search *s, const double *values, RetexSolveRows rows, double nearest[3], double *square,
+                     RetexError *err)
+{
+    double ends[2][3];
+    int code = RETEX_OK;
+    for (int end = 0; end < 2 && !code; end++) {
+        memcpy(s->next.values, values, sizeof s->next.values);
+        for (int j = 0; j < s->model.ncolumns; j++)
+            for (int c = 0; c < 3 && s->model.columns[j].target >= 0; c++)
+                s->next.values[s->model.columns[j].number[c]] = end;
+        code = evaluate(s, &s->next, rows, err);
+        for (int c = 0; c < 3 && !code; c++)
+            ends[end][c] = fmax(mean_of(&s->next.sums, c), 0);
+    }
+    if (!code)
+        *square = find_nearest(nearest, ends[0], ends[1], &s->next.sums);
+    return code;
+}
+
+/* CIEDE2000 has several minima, for hue turns either way. Where the mean is not met, it is looked for among all that
+ * can be made, with lamps of many strengths, one after the other. */
+static int begin_elsewhere(Search *s, RetexSolveRows rows, RetexError *err)
+{
+    double values[NUMBERS_MAX], aim[3], least = HUGE_VAL;
+    const double reached = s->params->mean ? square_of(s, &s->here.sums) : 0;
+    int code = RETEX_OK;
+    if (reached <= MET)
+        return RETEX_OK;
+    memcpy(values, s->first, sizeof values);
+    for (int j = 0; j < 2 * s->model.ncolumns && !code; j++) {
+        const RetexSolveColumn *column = &s->model.columns[j % s->model.ncolumns];
+        for (int c = 0; c < 3 && column->target < 0 && !code && (!c || column->number[c] != column->number[0]); c++) {
+            double *value = &values[column->number[c]], best = *value, square = HUGE_VAL;
+            least = HUGE_VAL;
+            for (int k = 0; k <= STRENGTHS && !code; k++) {
+                *value = k ? pow(10, (k - STRENGTHS / 2) / 4.) : 0;
+                code = find_mean(s, values, rows, aim, &square, err);
+                best = square < least ? *value : best;
+                least = fmin(square, least);
+            }
+            *value = best;
+        }
+    }
+    if (!code)
+        code = find_mean(s, values, rows, aim, &least, err);
+    s->kept = s->here;
+    memcpy(s->here.values, values, sizeof values);
+    s->aim = aim;
+    if (!code)
+        code = descend(s, rows, err);
+    s->aim = NULL;
+    if (!code)
+        code = descend(s, (RetexSolveRows){1, 1}, err);
+    if (!code && square_of(s, &s->here.sums) >= reached)
+        s->here = s->kept;
+    gather(&s->normal, &s->here.sums, &s->model, s->numbers);
     return code;
 }
 
@@ -206,8 +386,8 @@ static int choose(Search *s, RetexSolveRows rows, int *best, RetexError *err)
             code = descend(s, rows, err);
         if (!code && s->normal.count == 0 && (rows.band > 1 || rows.step > 1))
             return choose(s, (RetexSolveRows){1, 1}, best, err); /* no pixel of these rows counts */
-        s->squares[k] = s->normal.square;
         s->counted = s->normal.count;
+        s->squares[k] = s->normal.square + (s->params->mean ? s->counted * square_of(s, &s->here.sums) : 0);
         if (!k || s->squares[k] < s->squares[*best]) {
             *best = k;
             memcpy(values, s->here.values, sizeof values);
@@ -272,7 +452,9 @@ static void describe(Search *s, int best)
             u->value[c] = s->here.values[k] < TINY ? 0 : s->here.values[k];
             u->error[c] = errors[k] * rms;
             u->limited |= u->value[c] <= 0 || u->value[c] >= s->most[k];
-            u->seen &= errors[k] * fmin(rms, NOISE_MAX * s->model.block) <= VAGUE * fmax(u->value[c], 1);
+            u->seen &= s->params->mean
+                           ? errors[k] < HUGE_VAL
+                           : errors[k] * fmin(rms, NOISE_MAX * s->model.block) <= VAGUE * fmax(u->value[c], 1);
         }
     }
 }
@@ -316,7 +498,7 @@ static void begin(Search *s)
         for (int c = 0; c < 3; c++) {
             const int k = column->number[c];
             const RetexTarget *target = column->target < 0 ? NULL : &s->model.set->targets[column->target];
-            s->first[k] = target ? fmin(fmax((double)target->mean_albedo[c], 0.05), 0.95) : 1;
+            s->first[k] = target ? first_color((double)target->mean_albedo[c]) : 1;
             s->most[k] = target ? 1 : RETEX_SOLVE_LAMP_MAX;
         }
     }
@@ -345,6 +527,8 @@ static int solve(Search *s, const RetexImage *picture, RetexError *err)
         code = choose(s, coarse, &best, err);
     if (!code)
         code = descend(s, all, err);
+    if (!code)
+        code = begin_elsewhere(s, coarse, err);
     if (!code)
         describe(s, best);
     return code;

@@ -53,14 +53,16 @@ typedef struct RetexSolveParams {
                              nor samples */
     int x0, y0, x1, y1;   /* only pixels x0 <= x < x1, y0 <= y < y1 count; default 0, 0, 0, 0 = all */
     int cross;            /* as in RetexCombineParams; default 3 */
-    const RetexEdit *lights;   /* lamps and finishes that are not sought; default NULL: as rendered */
-    const RetexBudget *budget; /* says when to stop; default NULL */
+    const RetexEdit *lights;    /* lamps and finishes that are not sought; default NULL: as rendered */
+    const RetexBudget *budget;  /* says when to stop; default NULL */
     const RetexSolution *start; /* of the same set: what it found is begun with, where that is sought again; default
                                    NULL: mean originals, and lamps as rendered */
+    int mean; /* 1: of the pixels that count only the mean is compared, by CIEDE2000. What is sought changes as little as
+                 that asks for; default 0 */
 } RetexSolveParams;
 #define RETEX_SOLVE_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL, NULL                                                \
+        sizeof(RetexSolveParams), NULL, 0, 0, 0, 0, 3, NULL, NULL, NULL, 0                                             \
     }
 
 /* Find them. picture: of the set's size, 3 or more channels, scene-linear Rec. 709; pixels with a number that is not
