@@ -35,15 +35,17 @@ test("zoom keeps the place under the pointer, from 1 to 12 times, and never show
   near(under(430, 320), [(430 - 40) / 1, (320 - 70) / 1], 1e-9);
 });
 
-test("a place of the page is the pixel there, and of its targets the one that shows least", () => {
+test("a place of the page is the pixel there, and of its targets the one with most light, or the smaller one", () => {
   const { RetexRoom } = player(), heads = (list) => Uint32Array.from({ length: 12 }, (_, i) => 32 * 7 + (list.includes(i) ? 2 : 0));
-  const targets = [{ share: 0.5 }, { share: 0.1 }, { share: 0.9 }];
+  const targets = [{ share: 0.5 }, { share: 0.1 }, { share: 0.9 }], lights = [3, 3, 3];
   const room = element(RetexRoom, { canvas: { getBoundingClientRect: () => ({ left: 100, top: 50, width: 400, height: 300 }) } }, {
     room: { width: 4, height: 3, targets },
-    renderer: { full: [{ target: 0, heads: heads([0, 1, 5]) }, { target: 1, heads: heads([5]) }, { target: 2, heads: heads([5, 11]) }, { target: 1 }] },
+    renderer: { lightOf: (target) => lights[target], full: [{ target: 0, heads: heads([0, 1, 5]) }, { target: 1, heads: heads([5]) }, { target: 2, heads: heads([5, 11]) }, { target: 1 }] },
   });
   const at = (x, y) => room.targetAt(100 + 100 * x + 50, 50 + 100 * y + 50);
   same([at(0, 0), at(1, 0), at(2, 0), at(1, 1), at(3, 2)], [0, 0, -1, 1, 2]);
+  lights[2] = 3.1; // it reflects the others
+  same([at(1, 1), at(0, 0)], [2, 0]);
   same([room.targetAt(99, 100), room.targetAt(501, 100), room.targetAt(200, 49), room.targetAt(200, 350)], [-1, -1, -1, -1]);
   same([room.targetAt(100, 50), room.targetAt(499.9, 349.9)], [0, 2]);
 });

@@ -46,7 +46,7 @@ button { font: inherit; color: inherit; cursor: pointer; }
 .swatch[aria-pressed=true] { outline: 3px solid var(--accent); outline-offset: 2px; }
 .colors input { padding: 4px !important; border: 0 !important; background: conic-gradient(#e55, #dc3, #4b4, #3bc, #55e, #c4c, #e55) !important; }
 input::-webkit-color-swatch { border: 0; border-radius: inherit; } input::-webkit-color-swatch-wrapper { padding: 0; border-radius: inherit; }
-.file { display: flex; align-items: center; justify-content: center; cursor: pointer; }
+.file { position: relative; display: flex; align-items: center; justify-content: center; cursor: pointer; }
 .file:focus-within, :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 .file input { position: absolute; opacity: 0; width: 1px; height: 1px; }
 label.slider { display: grid; grid-template-columns: 86px 1fr 48px; align-items: center; gap: 8px; min-height: 42px; }

@@ -8,7 +8,7 @@ import { Images } from "./images.js";
 import { isPair } from "./look.js";
 import { chosenColors, firstHit, gateShader, passColors, passesOf, smallGateShader } from "./maps.js";
 import { factorShader, lampShader, mixtureShader, pictureShader } from "./shaders.js";
-import { clamp } from "./values.js";
+import { clamp, srgbDecode } from "./values.js";
 
 const FACTORS_MOST = 16; // of a term
 
@@ -192,6 +192,19 @@ export class Renderer extends Images {
     gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.light);
     this.exactly(() => gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, index, room.width, room.height, 1, gl.RGBA, gl.UNSIGNED_BYTE, image));
     this.lights.add(index);
+  }
+
+  /* The light that a pixel has of a target before its colour: a floor that reflects a wall is more floor than wall. */
+  lightOf(target, x, y) {
+    const { gl, room } = this, code = new Uint8Array(4);
+    const lights = new Set(room.groups.filter((g) => firstHit(room, g.mixture) === target && this.lights.has(g.light)).map((g) => g.light));
+    return [...lights].reduce((sum, l) => {
+      const { white, levels } = room.lights[l];
+      this.into(this.light, l, room.width, room.height);
+      gl.readPixels(x, y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, code);
+      const [r, g, b] = Array.from(code, (c) => (c > levels ? Math.exp((c / levels - 1) * (255 / 48)) : srgbDecode(c / levels)));
+      return sum + white * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+    }, 0);
   }
 
   putStill(image) {

@@ -29,13 +29,16 @@ export const withView = (Base) => class extends Base {
     this.grow();
   }
 
-  /* The target that is seen at a place of the window, or -1. */
+  /* The target that is seen at a place of the window, or -1: of several in a pixel the one with most light, or the smaller
+   * one. */
   targetAt(x, y) {
     const box = this.$("canvas").getBoundingClientRect(), room = this.room;
     if (!room || !this.renderer) return -1;
     const px = Math.floor(((x - box.left) / box.width) * room.width), py = Math.floor(((y - box.top) / box.height) * room.height);
     if (px < 0 || py < 0 || px >= room.width || py >= room.height) return -1;
-    const seen = this.renderer.full.filter((c) => c.heads && c.heads[py * room.width + px] & 31);
-    return seen.length ? seen.reduce((a, b) => (room.targets[a.target].share < room.targets[b.target].share ? a : b)).target : -1;
+    const classes = this.renderer.full.filter((c) => c.heads && c.heads[py * room.width + px] & 31), seen = [...new Set(classes.map((c) => c.target))];
+    if (seen.length < 2) return seen[0] ?? -1;
+    const lights = seen.map((t) => this.renderer.lightOf(t, px, py)), most = Math.max(...lights);
+    return seen.filter((_, i) => lights[i] === most).reduce((a, b) => (room.targets[a].share < room.targets[b].share ? a : b));
   }
 };
