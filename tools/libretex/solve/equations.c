@@ -27,11 +27,11 @@ typedef struct Evaluation {
     RetexTexture *textures[RETEX_MAX_TARGETS];                   /* by target, of those that are sought */
     RetexTexture *higher[RETEX_MAX_TARGETS];                     /* the same */
     RetexTexture *all[1 + RETEX_MAX_TARGETS][RETEX_MAX_TARGETS]; /* of each polynomial; borrowed */
-    signed char *term_column;                 /* by term, the column of its lamp; -1: none is sought */
-    float common[3];                          /* what lamps that are sought have in common with those that are given, */
-    int least[3];                             /* and the parameter that has no more; see retex_polynomial_common */
+    signed char *term_column; /* by term, the column of its lamp; -1: none is sought */
+    float common[3];          /* what lamps that are sought have in common with those that are given, */
+    int least[3];             /* and the parameter that has no more; see retex_polynomial_common */
     float values_of[RETEX_PARAMETERS_MAX][3]; /* parameters, with lamps as they are sought here */
-    RetexEquations *strips;                   /* by strip */
+    RetexEquations *strips;   /* by strip */
 } Evaluation;
 
 /* Memory of one strip. */
@@ -81,9 +81,9 @@ static int open_textures(Evaluation *e, RetexError *err)
 static int open_polynomial(RetexPolynomial *p, const Evaluation *e, int number, int nthreads, RetexError *err)
 {
     const RetexSolveModel *m = e->model;
-    const int code =
-        retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
-                              m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED, nthreads, err);
+    const int code = retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
+                                           m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED,
+                                           nthreads, err);
     if (!code)
         p->columns = (RetexRowSpan){m->combine.x0, m->combine.x1};
     return code;

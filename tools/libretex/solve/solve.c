@@ -110,8 +110,8 @@ static double mean_of(const RetexEquations *sums, int channel)
     return (sums->wanted[channel] + sums->difference[channel]) / fmax(sums->pixels[channel], 1);
 }
 
-/* The difference of a colour from the picture's mean, or from what is aimed at, as CIEDE2000 has it: three parts, and the
- * sum of their squares. */
+/* The difference of a colour from the picture's mean, or from what is aimed at, as CIEDE2000 has it: three parts, and
+ * the sum of their squares. */
 static double compare_colors(double parts[3], const RetexEquations *sums, const double *aim, const double color[3])
 {
     double wanted[3], lab[3];
@@ -271,8 +271,8 @@ static int descend(Search *s, RetexSolveRows rows, RetexError *err)
 
 /* ---- means ---- */
 
-/* The colour between low and high that is nearest to what is wanted: on a grid of cube roots, and on finer ones about the
- * best. Returns the square of the difference. */
+/* The colour between low and high that is nearest to what is wanted: on a grid of cube roots, and on finer ones about
+ * the best. Returns the square of the difference. */
 static double find_nearest(double nearest[3], const double low[3], const double high[3], const RetexEquations *sums)
 {
     double begin[3], end[3], least = HUGE_VAL;

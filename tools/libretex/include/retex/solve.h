@@ -57,8 +57,8 @@ typedef struct RetexSolveParams {
     const RetexBudget *budget;  /* says when to stop; default NULL */
     const RetexSolution *start; /* of the same set: what it found is begun with, where that is sought again; default
                                    NULL: mean originals, and lamps as rendered */
-    int mean; /* 1: of the pixels that count only the mean is compared, by CIEDE2000. What is sought changes as little as
-                 that asks for; default 0 */
+    int mean; /* 1: of the pixels that count only the mean is compared, by CIEDE2000. What is sought changes as little
+                 as that asks for; default 0 */
 } RetexSolveParams;
 #define RETEX_SOLVE_INIT                                                                                               \
     {                                                                                                                  \
