@@ -470,10 +470,11 @@ void cli_warn_text(void *context, const char *text)
     pthread_mutex_lock(&unsaid.lock);
     if (!is_registered)
         is_registered = atexit(say_unsaid) == 0;
+    const int is_said_later = is_registered;
     if (unsaid.count++ == 0)
         snprintf(unsaid.first, sizeof unsaid.first, "%s%s", cli->frame, text), unsaid.tool = cli->tool;
     pthread_mutex_unlock(&unsaid.lock);
-    if (!is_registered)
+    if (!is_said_later)
         say_unsaid();
 }
 
