@@ -262,6 +262,21 @@ test("while not all is loaded, the picture is the still one and what new texture
   least(psnr(partial.draw({ Floor: { image: [0.8, 0.1, 0.1] } }), images(["expected.png"])[0]), 28, "a new floor");
 });
 
+test("a curve has one white, or one for each channel", () => {
+  const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4), { mixtureShader, valueCode } = player(), code = [40 / 255, 90 / 255, 230 / 255];
+  for (const white of [1.5, [1.5, 1.2, 0.9]]) {
+    const { run: values } = compile(`${mixtureShader(whole.room).split("uniform usampler2D records")[0]}
+      uniform vec3 code; out vec4 result;
+      void main() { result = vec4(${valueCode("code", { white, levels: 255 })}, 1.0); }`);
+    code.forEach((y, k) => near(values({ code })([0, 0])[k], (white[k] ?? white) * linear(y), 1e-8, `channel ${k}`));
+  }
+  const { room, renderer } = whole, { lights } = room, at = [20, 6], before = renderer.lightOf(0, ...at);
+  room.lights = lights.map((l) => ({ ...l, white: [l.white, 0, 0].flat().slice(0, 3).map((w, k) => (k ? 0 : w)) }));
+  const red = renderer.lightOf(0, ...at);
+  room.lights = lights;
+  same(before > red && red > 0, true, "light of a target");
+});
+
 test("levels of light are those of retex-web(5)", () => {
   const { mixtureShader } = player(), room = whole.room;
   const { run: values } = compile(`${mixtureShader(room).split("uniform usampler2D records")[0]}

@@ -199,11 +199,11 @@ export class Renderer extends Images {
     const { gl, room } = this, code = new Uint8Array(4);
     const lights = new Set(room.groups.filter((g) => firstHit(room, g.mixture) === target && this.lights.has(g.light)).map((g) => g.light));
     return [...lights].reduce((sum, l) => {
-      const { white, levels } = room.lights[l];
+      const { levels } = room.lights[l], white = whites(room.lights[l]);
       this.into(this.light, l, room.width, room.height);
       gl.readPixels(x, y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, code);
       const [r, g, b] = Array.from(code, (c) => (c > levels ? Math.exp((c / levels - 1) * (255 / 48)) : srgbDecode(c / levels)));
-      return sum + white * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+      return sum + 0.2126 * white[0] * r + 0.7152 * white[1] * g + 0.0722 * white[2] * b;
     }, 0);
   }
 
