@@ -108,8 +108,8 @@ export function context(canvas) {
     framebufferTextureLayer: (_, attachment, texture, level, layer) => Object.assign(frame, { texture, layer }),
     framebufferTexture2D: (_, attachment, kind, texture) => Object.assign(frame, { texture, layer: 0 }),
     readPixels: (x, y, width, height, format, type, data) => {
-      const from = frame.texture.images[frame.layer][0];
-      for (let row = 0; row < height; row++) data.set(from.values.subarray(4 * ((y + row) * from.width + x), 4 * ((y + row) * from.width + x + width)), 4 * row * width);
+      const from = frame.texture.images[frame.layer][0], most = data instanceof Uint8Array ? 255 : 1; /* values are 0 to 1 */
+      for (let row = 0; row < height; row++) data.set(from.values.subarray(4 * ((y + row) * from.width + x), 4 * ((y + row) * from.width + x + width)).map((v) => (most > 1 ? Math.round(v * most) : v)), 4 * row * width);
     },
     viewport: (...box) => (view = box),
     uniformMatrix2fv: (at, _, value) => gl.set(at, chunks(value, 4).map(([a, b, c, d]) => [[a, b], [c, d]])),
