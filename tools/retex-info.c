@@ -215,6 +215,8 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
     print_clusters(out, set);
     if (info.unit != 1)
         fprintf(out, "scene unit     %g m\n", info.unit);
+    if (info.exposure != 0)
+        fprintf(out, "exposure       %+.4g stops, of the scene\n", info.exposure);
     fprintf(out, "max depth      %d segments", info.max_depth);
     if (info.depth_cut >= 5e-7) /* less would be 0.0000 */
         fprintf(out, ", without %.4f%% of the light", 100 * info.depth_cut);

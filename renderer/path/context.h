@@ -34,6 +34,7 @@ typedef struct PathContext {
     int places;        /* samples are spread evenly over pixels: with split, tell the film where in its pixel each is */
     int matte;         /* packets may sample matte surfaces together, see matte.h */
     int nvariants;     /* 1..VARIANTS_MAX: sets of textures that each path is evaluated with; 1 where split */
+    float exposure;    /* by which light becomes values of the picture */
     int halves;        /* of a pixel's samples: 1, or 2 with sample numbers of their own, in turn */
     int caustic_sources; /* light sources that paths may meet, for they have caustics */
     int white;         /* first hits are white diffuse surfaces that do not emit */

@@ -84,9 +84,22 @@ static void add_to_control(PathWorker *w, Path *path, const Contribution *c, Flo
     control_add(w->control, path->control, &own, shown);
 }
 
-void path_contribute(PathWorker *w, Path *path, const Contribution *c)
+/* Light becomes values of the picture. storage: of its variants. */
+static Contribution expose(const PathContext *context, const Contribution *c, Rgb storage[VARIANTS_MAX])
+{
+    Contribution exposed = *c;
+    exposed.light = rgb_scale(c->light, context->exposure);
+    for (int v = 0; c->variants && v < context->nvariants; v++)
+        storage[v] = rgb_scale(c->variants[v], context->exposure);
+    exposed.variants = c->variants ? storage : NULL;
+    return exposed;
+}
+
+void path_contribute(PathWorker *w, Path *path, const Contribution *unexposed)
 {
     const PathContext *context = w->context;
+    Rgb variants[VARIANTS_MAX];
+    const Contribution exposed = expose(context, unexposed, variants), *c = &exposed;
     Float4 light = path->beta * color4(c->light);
     for (int k = 0; k < c->nfactors; k++)
         light *= factor_whole(&c->factors[k]);

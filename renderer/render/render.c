@@ -30,6 +30,7 @@ int render_start_set(RetexSet **set, const Render *r, RetexError *err)
     info.orders = r->params.orders, info.spp = r->params.spp;
     info.max_depth = r->params.max_depth, info.seed = r->params.seed;
     info.unit = r->params.unit;
+    info.exposure = r->scene->exposure;
     return retex_set_describe(*set, &info, err);
 }
 

@@ -1,4 +1,5 @@
 /* Setup of a render: window, acceleration structure, lights, films and data of each thread. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
@@ -184,6 +185,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .split = split,
                                .places = split && !r->params.gaussian,
                                .nvariants = 1,
+                               .exposure = (float)exp2(scene->exposure),
                                .has_air = scene->fogs || scene->rainbows,
                                .halves = 1};
     if (!code)

@@ -112,6 +112,7 @@ typedef struct Scene {
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
     PixelSize *pixels;       /* of the render; never NULL after parsing a normal that needs it */
     Camera camera;
+    double exposure;         /* of pictures: they have the scene's light times 2^exposure */
     int ncameras;            /* those that are #declared, in the scene's order; of one name the last */
     NamedCamera *cameras;
     Rgb background;

@@ -1,5 +1,7 @@
 /* global_settings, background and sky_sphere. */
+#include <math.h>
 #include <string.h>
+#include <retex/develop.h>
 #include "pattern/wave_sources.h"
 #include "sdl/camera/camera.h"
 #include "sdl/object/object.h"
@@ -56,6 +58,16 @@ static void parse_names(Sdl *sdl)
     }
 }
 
+/* `retex_exposure STOPS` */
+static void parse_exposure(Sdl *sdl)
+{
+    const double stops = sdl_float(sdl);
+    if (!(fabs(stops) <= RETEX_EXPOSURE_MAX))
+        sdl_error(sdl, "retex_exposure %g: an exposure is -%d to %d stops", stops, RETEX_EXPOSURE_MAX,
+                  RETEX_EXPOSURE_MAX);
+    sdl_scene(sdl)->exposure = stops;
+}
+
 void parse_global_settings(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
@@ -65,6 +77,8 @@ void parse_global_settings(Sdl *sdl)
             assumed_gamma(sdl);
         else if (sdl_accept(sdl, "retex_names"))
             parse_names(sdl);
+        else if (sdl_accept(sdl, "retex_exposure"))
+            parse_exposure(sdl);
         else if (sdl_accept(sdl, "ambient_light")) {
             Rgbft c = sdl_color(sdl);
             scene->ambient_light = rgb(c.r, c.g, c.b);

@@ -79,7 +79,8 @@ void retex_set_get_info(const RetexSet *set, RetexSetInfo *info)
                         .nparts = set->nparts,
                         .further_hits = set->further_hits,
                         .unit = set->unit,
-                        .depth_cut = set->depth_cut};
+                        .depth_cut = set->depth_cut,
+                        .exposure = set->exposure};
     memcpy(own.further_ratio, set->further_ratio, sizeof own.further_ratio);
     (void)RETEX_PARAMS_RETURN(info, &own, NULL);
 }
@@ -114,7 +115,7 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err
     set->denoised = info.denoised, set->strict_paper = info.strict_paper;
     set->folded = info.folded, set->folded_white = info.folded_white;
     set->further_hits = info.further_hits;
-    set->unit = info.unit, set->depth_cut = info.depth_cut;
+    set->unit = info.unit, set->depth_cut = info.depth_cut, set->exposure = info.exposure;
     memcpy(set->further_ratio, info.further_ratio, sizeof set->further_ratio);
     return 0;
 }

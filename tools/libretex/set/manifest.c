@@ -268,6 +268,8 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "max_depth", json_integer(set->max_depth));
     if (set->depth_cut != 0)
         retex_json_put(root, "depth_cut", real(set->depth_cut, finite));
+    if (set->exposure != 0)
+        retex_json_put(root, "exposure", real(set->exposure, finite));
     retex_json_put(root, "seed", json_integer(set->seed));
     retex_json_put(root, "id", identity(set->id));
     retex_json_put(root, "folded", real(set->folded, finite));

@@ -305,6 +305,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
         set->folded_white = retex_reading_real(reading, json_object_get(root, "folded_white"), "folded_white");
     if (json_object_get(root, "depth_cut"))
         set->depth_cut = retex_reading_real(reading, json_object_get(root, "depth_cut"), "depth_cut");
+    if (json_object_get(root, "exposure"))
+        set->exposure = retex_reading_real(reading, json_object_get(root, "exposure"), "exposure");
     if (json_object_get(root, "further"))
         read_further(reading, json_object_get(root, "further"), set);
     set->unit = json_object_get(root, "unit") ? retex_reading_real(reading, json_object_get(root, "unit"), "unit") : 1;

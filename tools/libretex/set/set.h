@@ -13,7 +13,7 @@ struct RetexSet {
     char layout[16], filter[16], scene[RETEX_SCENE_MAX], generator[64];
     int orders, spp, max_depth;
     uint32_t seed, id;
-    double folded, folded_white, unit, depth_cut;
+    double folded, folded_white, unit, depth_cut, exposure;
     int further_hits;
     float further_ratio[3];
     int denoised, strict_paper;

@@ -222,6 +222,7 @@ typedef struct RetexSetInfo {
                                scene did not say */
     double depth_cut;       /* share of the light, of what there is and what max_depth left out, that was left out: an
                                estimate; 0: none, or not known */
+    double exposure;        /* stops: the picture has the scene's light times 2^exposure; 0 where nothing was said */
 } RetexSetInfo;
 
 /* Fill what info->size says that the caller knows. */
