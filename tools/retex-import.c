@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <ftw.h>
 #include <limits.h>
+#include <math.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -27,6 +28,7 @@
 #include "common/cli.h"
 #include "common/confine.h"
 #include "import/import.h"
+#include "import/look.h"
 #include "common/watchdog.h"
 
 enum { MOST_FOLDERS = 32, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
@@ -39,8 +41,11 @@ typedef struct Request {
     const char *also[MOST_FOLDERS];
     const char *layer, *other_half;        /* of pictures; all else is for models */
     const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
+    double exposure; /* stops; NAN: by a look at the scene */
     int force;
 } Request;
+
+static int is_framed; /* of the scene that was written: see IMPORT_FRAMED */
 
 static void take_axis(Cli *cli, const CliOption *option, void *to)
 {
@@ -76,6 +81,12 @@ static void take_include(Cli *cli, const CliOption *option, void *to)
     r->also[r->import.nalso++] = cli->value;
 }
 
+static void take_exposure(Cli *cli, const CliOption *option, void *to)
+{
+    const int is_auto = strcmp(cli->value, "auto") == 0;
+    *(double *)to = is_auto ? NAN : cli_number(cli, option, -RETEX_EXPOSURE_MAX, RETEX_EXPOSURE_MAX);
+}
+
 static const CliOption options[] = {
     {"camera", 0, "N",
      "the Nth camera of the model, or the one of that name; or inside, outside, or X,Y,Z:X,Y,Z[:ANGLE], where it is "
@@ -91,6 +102,9 @@ static const CliOption options[] = {
      0, CLI_CALL(Request, import, take_unit)},
     {"scale", 0, "S", "multiply all lengths", 0, CLI_CALL(Request, import, take_scale)},
     {"lights", 0, "F", "multiply the light of all light sources", 0, CLI_NUMBER(Request, import.lights, 0, 1e9)},
+    {"exposure", 0, "auto|STOPS",
+     "by which pictures are brighter: what a first look at the scene asks for, the default, or 2^STOPS without a look", 0,
+     CLI_CALL(Request, exposure, take_exposure)},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0,
      CLI_NUMBER(Request, import.smooth, 0, 175)},
     {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0,
@@ -195,6 +209,8 @@ static void pass_on(const Cli *cli, char kind, const char *text)
 {
     if (kind == IMPORT_WARNING)
         cli_warn(cli, "%s", text);
+    else if (kind == IMPORT_FRAMED)
+        is_framed = 1;
     else if (kind == IMPORT_ANSWER)
         puts(text);
     else if (kind == IMPORT_INFO)
@@ -366,17 +382,59 @@ static void begin_folder(const Cli *cli, const char *folder)
     }
 }
 
-static void import_to(const Cli *cli, ImportOptions *import, int force)
+/* ---- the first look ---- */
+
+static void tell_look(const Cli *cli, const Look *look, const char *name)
 {
+    if (look->added > 0 && look->is_noisy)
+        cli_info(cli, "the light of the model comes by few ways, as of a lamp in a housing or a sun behind glass, and is "
+                      "noise in the picture: light is added, Added_light in %s.pov, 0 without", name);
+    else if (look->added > 0 && look->is_bare)
+        cli_info(cli, "the model has no sky: one is added, Added_light in %s.pov, 0 without", name);
+    else if (look->added > 0)
+        cli_info(cli, "the light of the model reaches %.0f %% of what is seen: light is added, Added_light in %s.pov, 0 "
+                      "without", 100 * look->lit, name);
+    if (!look->is_seen)
+        cli_warn(cli, "nothing is seen in the picture: --camera chooses another view");
+    else if (look->is_black)
+        cli_warn(cli, "the picture is black: no light reaches what is seen; --sky FILE lights it, --camera another view");
+    else if (look->exposure != 0)
+        cli_info(cli, "an exposure of %+.2f stops brings the picture to a middle grey: retex_exposure in %s.pov",
+                 look->exposure, name);
+}
+
+/* Exposure and missing light, by a small picture. Without one, the scene stays as the model has it. */
+static void look(const Cli *cli, const Request *r)
+{
+    const LookParams params = {.folder = unfinished_folder,
+                               .name = r->import.name,
+                               .is_framed = is_framed,
+                               .safe = r->import.safe,
+                               .seconds = cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS,
+                               .memory = retex_budget_memory(cli->budget),
+                               .renderer = &child};
+    Look seen = {0};
+    RetexError err = {0};
+    const int is_said = !isnan(r->exposure);
+    if (is_said ? look_expose(&params, r->exposure, &err) : look_at(&seen, &params, &err))
+        cli_info(cli, "no look at the scene: %s", err.message);
+    else if (!is_said)
+        tell_look(cli, &seen, r->import.name);
+}
+
+static void import_to(const Cli *cli, Request *r)
+{
+    ImportOptions *import = &r->import;
     char folder[PATH_MAX], name[NAME_MAX + 1];
     RetexError err = {0};
     take_name(cli, folder, name);
-    const int there = open_folder(cli, folder, force);
+    const int there = open_folder(cli, folder, r->force);
     begin_folder(cli, folder);
     import->folder = unfinished;
     import->name = name;
     if (run_import(cli, import, &err))
         give_up(cli, &err);
+    look(cli, r);
     watchdog_go_on();
     int code = RETEX_OK;
     if (there >= 0)
@@ -467,7 +525,7 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
-    Request request = {.import = {.scale = 1, .lights = 1, .also = request.also}};
+    Request request = {.import = {.scale = 1, .lights = 1, .also = request.also}, .exposure = NAN};
     ImportOptions *import = &request.import;
 
     parse(&cli, &request);
@@ -488,7 +546,7 @@ int main(int argc, char **argv)
         retex_budget_set_memory(cli.budget, usual);
     if (import->list_variants)
         return list_variants(&cli, import);
-    import_to(&cli, import, request.force);
+    import_to(&cli, &request);
     watchdog_done(); /* nothing goes to standard output, which need not be closed well */
     return CLI_OK;
 }

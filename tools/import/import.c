@@ -13,6 +13,7 @@
 #include <retex/version.h>
 
 #include "import/base/files.h"
+#include "import/base/look_text.h"
 #include "import/base/mesh.h"
 #include "import/base/tell.h"
 #include "import/base/world.h"
@@ -158,8 +159,9 @@ static void write_head(const Import *import, FILE *out)
             "  max_trace_level 12\n"
             "  radiosity { count 200 error_bound 0.5 recursion_limit 2 }\n"
             "}\n"
-            "#default { finish { ambient 0 } }\n\n",
-            import_plain(slash ? slash + 1 : import->options->model, plain), RETEX_VERSION, name, name);
+            "#default { finish { ambient 0 } }\n"
+            "#ifdef (Retex) global_settings { " LOOK_EXPOSURE LOOK_EXPOSURE_FORMAT " } #end // stops, by which pictures are brighter\n\n",
+            import_plain(slash ? slash + 1 : import->options->model, plain), RETEX_VERSION, name, name, 0.0);
     if (import->variants.command)
         fprintf(out, "// The variants of %s-variants.csv, in this folder:\n//   %s\n\n", name,
                 import->variants.command);
@@ -170,7 +172,8 @@ static int write_scene(Import *import, RetexError *err)
     char path[PATH_MAX], *materials = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&materials, &size);
-    int code = memory ? materials_write(import, memory, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    const int is_ready = memory && names_make(&import->names, "Added_light", "", (char[NAME_SIZE]){0});
+    int code = is_ready ? materials_write(import, memory, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
     if (!code)
         code = variants_write(import, memory, err);
     if (!code)

@@ -213,6 +213,7 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
         return code;
     if (is_framed || chosen < 0)
         return framing_write(import, out, err);
+    place(import, chosen, import->eye, (double[3]){0}, (double[3]){0});
     fprintf(out, "camera { %s }\n\n", cameras->names[chosen]);
     if (cameras->count > 1)
         import_tell(import, IMPORT_INFO, "camera %d of %d is used, %s; --camera takes another one", chosen + 1,

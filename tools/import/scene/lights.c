@@ -4,6 +4,7 @@
 
 #include "import/base/tell.h"
 #include "import/gltf/gltf.h"
+#include "import/base/look_text.h"
 #include "import/scene/images.h"
 #include "import/scene/scene.h"
 #include "import/scene/surface.h"
@@ -131,27 +132,38 @@ static void write_light(Import *import, unsigned index, double user, FILE *out)
     fprintf(out, " }\n");
 }
 
-/* A sky, of the options or where there is no light; in a room that it does not reach, a light below the ceiling. */
-static int write_sky(Import *import, FILE *out, int has_light, RetexError *err)
+static int write_sky(Import *import, FILE *out, RetexError *err)
 {
     char file[NAME_SIZE + 32];
-    int is_dark = 0;
-    int code = has_light ? RETEX_OK : ceiling_is_needed(import, &is_dark, err);
-    if (!code && import->options->sky) {
-        code = images_add_sky(import, file, err);
-        if (!code) /* seen from inside */
-            fprintf(out,
-                    "sky_sphere { pigment { image_map { %s \"%s\" map_type 1 interpolate 2 } scale <-1, 1, 1> } }\n\n",
-                    images_keyword(file), file);
-    } else if (has_light) {
-        fprintf(out, "\n");
-    } else if (!is_dark) {
-        fprintf(out,
-                "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }\n\n");
-        import_tell(import, IMPORT_INFO, "%s in the model: a soft sky lights it",
-                    import->emits ? "next to no light" : "no light");
-    }
-    return code || !is_dark ? code : ceiling_write(import, out, err);
+    const int code = images_add_sky(import, file, err);
+    if (!code) /* seen from inside */
+        fprintf(out, "sky_sphere { pigment { image_map { %s \"%s\" map_type 1 interpolate 2 } scale <-1, 1, 1> } }\n\n",
+                images_keyword(file), file);
+    return code;
+}
+
+/* Light for models that have none, or too little of it: a soft sky; in a room that it does not reach, a lamp below the
+ * ceiling. Those that have some get it switched off, and tools/import/look.h finds out whether it is needed. */
+static int write_added(Import *import, FILE *out, int has_light, RetexError *err)
+{
+    int is_dark = 0, is_below_ceiling = 0;
+    int code = ceiling_is_needed(import, &is_dark, err);
+    if (code)
+        return code;
+    fprintf(out, "// Light that the model lacks: how bright it is, 0 where it has enough of its own.\n"
+                 LOOK_ADDED_LIGHT LOOK_ADDED_LIGHT_FORMAT ";\n#if (Added_light > 0)\n", has_light ? 0.0 : 1.0);
+    if (is_dark)
+        code = ceiling_write(import, out, &is_below_ceiling, err);
+    if (!is_below_ceiling)
+        fprintf(out, "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_light] [1 rgb Added_light] } "
+                     "scale 2 translate -y } }\n");
+    fprintf(out, "#end\n\n");
+    if (!code && !has_light)
+        import_tell(import, IMPORT_INFO, is_below_ceiling
+                                             ? "no light in the model, and no opening in the room: a light below the "
+                                               "ceiling, Ceiling_light, lights it"
+                                             : "no light in the model: a soft sky lights it");
+    return code;
 }
 
 /* Programs write ambient lights that are black. */
@@ -182,37 +194,12 @@ static int write_lights(Import *import, FILE *out)
     return any;
 }
 
-/* Of light that there is, and that is in the way of a sky: whether it is next to none. */
-static void tell_black(const Import *import, int any_lights)
-{
-    enum { VISIBLE = 500 }; /* a radiance of 1 / 500 is the seventh of 255 steps to white */
-    int shines = 0;
-    for (int i = 0; i < import->gltf.nlights; i++)
-        shines |=
-            import->gltf.lights[i].color[0] + import->gltf.lights[i].color[1] + import->gltf.lights[i].color[2] > 0;
-    for (unsigned i = 0; i < import->scene->mNumLights && !import->is_gltf; i++)
-        shines |= !is_left_out(import->scene->mLights[i]) && is_bright(&import->scene->mLights[i]->mColorDiffuse);
-    const double glow = import->emits ? ceiling_glow(import) : 0;
-    if ((shines && import->options->lights > 0) || glow * VISIBLE > 1)
-        return;
-    if (any_lights)
-        import_tell(import, IMPORT_WARNING,
-                    "the picture will be black, or nearly so: the lights of the model are; --sky FILE lights it");
-    else
-        import_tell(
-            import, IMPORT_WARNING,
-            "the picture will be black, or nearly so: what shines in the model is too faint or too small, what it "
-            "lights is about %.1g of white; --sky FILE lights it",
-            glow);
-}
-
 int lights_write(Import *import, FILE *out, RetexError *err)
 {
     fprintf(out, "// ---- light ----\n\n");
     const int any =
         import->is_gltf ? gltf_lights_write(import, import->options->lights, out) : write_lights(import, out);
-    const int has_light = any || ceiling_emits(import);
-    if (has_light && !import->options->sky)
-        tell_black(import, any);
-    return write_sky(import, out, has_light, err);
+    if (any)
+        fprintf(out, "\n");
+    return import->options->sky ? write_sky(import, out, err) : write_added(import, out, any || import->emits, err);
 }

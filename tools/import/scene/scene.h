@@ -19,13 +19,10 @@ int meshes_write(Import *import, FILE *out, RetexError *err);
 
 int lights_write(Import *import, FILE *out, RetexError *err);
 
-/* Whether surfaces shine enough to be the light of the scene. */
-int ceiling_emits(const Import *import);
-/* About the radiance of what they light in the open; infinite in rooms, and where it is not known. */
-double ceiling_glow(const Import *import);
 /* Whether the model is a room that no sky can light. */
 int ceiling_is_needed(const Import *import, int *is_needed, RetexError *err);
-int ceiling_write(Import *import, FILE *out, RetexError *err);
+/* A lamp below the ceiling, if there is a place for it. */
+int ceiling_write(Import *import, FILE *out, int *is_written, RetexError *err);
 
 int cameras_write(Import *import, FILE *out, RetexError *err);
 

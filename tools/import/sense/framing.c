@@ -270,6 +270,8 @@ int framing_write(Import *import, FILE *out, RetexError *err)
     const int code = frame(import, &framing, err);
     if (code)
         return code;
+    memcpy(import->eye, framing.at, sizeof import->eye);
+    import_tell(import, IMPORT_FRAMED, "%s", "");
     fprintf(out, "camera {\n");
     vector_print(out, "  location ", framing.at, "\n");
     fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", framing.angle);

@@ -1,4 +1,4 @@
-"""Models for import_black.t: a floor of 10 x 10 m with a square above it that shines, of some size and strength, or with a
+"""Models for import_look.t: a floor of 10 x 10 m with a square above it that shines, of some size and strength, or with a
 lamp; and the mean radiance of a picture."""
 import json
 import struct
@@ -15,7 +15,7 @@ def square(size, height, up):
     return b''.join(struct.pack('<3f', *c) for c in (corners if up else corners[::-1]))
 
 
-def write(name, size=None, strength=0, intensity=None):
+def write(name, size=None, strength=0, intensity=None, camera=True):
     data = square(10, 0, True) + square(size or 1, 2, False) + struct.pack('<6H', 0, 1, 2, 0, 2, 3)
     nodes = [{'mesh': 0}]
     model = {'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': nodes,
@@ -38,6 +38,9 @@ def write(name, size=None, strength=0, intensity=None):
         used.append('KHR_lights_punctual')
         nodes.append({'translation': [0, 2, 0], 'extensions': {'KHR_lights_punctual': {'light': 0}}})
         model['extensions'] = {'KHR_lights_punctual': {'lights': [{'type': 'point', 'intensity': intensity}]}}
+    if camera:
+        nodes.append({'translation': [0, 4, 12], 'rotation': [-.13, 0, 0, .9915], 'camera': 0})
+        model['cameras'] = [{'type': 'perspective', 'perspective': {'yfov': .8, 'znear': .1}}]
     model['scenes'][0]['nodes'] = list(range(len(nodes)))
     model['extensionsUsed'] = used
     with open(name + '.bin', 'wb') as out:
@@ -46,12 +49,26 @@ def write(name, size=None, strength=0, intensity=None):
         json.dump(model, out)
 
 
+def luminance(path):
+    return oiio.ImageBuf(path).get_pixels(oiio.FLOAT)[..., :3] @ [.2126, .7152, .0722]
+
+
+def judge(path):
+    """By the log-average of what is not black, as the background is."""
+    picture = luminance(path)
+    seen = picture[picture > 0]
+    mean = np.exp2(np.mean(np.log2(np.maximum(seen, np.quantile(seen, .9) / 256)))) if len(seen) else 0
+    return 'black' if mean < 1 / 500 else 'grey' if .12 < mean < .27 else f'{mean:.2g}'
+
+
 if len(sys.argv) > 1:
-    mean = np.mean(oiio.ImageBuf(sys.argv[1]).get_pixels(oiio.FLOAT)[..., :3])
-    print('black' if mean < 1 / 500 else 'light' if mean > 1 / 100 else mean)
+    print(judge(sys.argv[1]))
 else:
     write('speck', .02, 3)
     write('panel', 2, 20)
     write('out', intensity=0)
     write('lamp', intensity=683 * 20)
+    write('dim', intensity=.5)
+    write('bright', intensity=683 * 1e5)
     write('label', 1, .5)
+    write('framed', intensity=683 * 20, camera=False)

@@ -1,0 +1,11 @@
+/* Numbers of a scene that are found by looking at it, see import/look.h: they are written first, and their digits are
+ * replaced in place. */
+#ifndef RETEX_IMPORT_LOOK_TEXT_H
+#define RETEX_IMPORT_LOOK_TEXT_H
+
+#define LOOK_EXPOSURE "retex_exposure "
+#define LOOK_EXPOSURE_FORMAT "%+7.2f"
+#define LOOK_ADDED_LIGHT "#declare Added_light = "
+#define LOOK_ADDED_LIGHT_FORMAT "%10.3f"
+
+#endif

@@ -1,0 +1,280 @@
+/* See look.h. Light is judged by means of 4 x 4 pixels, so that the noise of few samples is no darkness. */
+#include "import/look.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <retex/color.h>
+#include <retex/retex.h>
+
+#include "import/base/look_text.h"
+
+#define PICTURE ".look.exr"
+#define GREY 0.18
+#define DARKEST 0.0039 /* 5 % of the range of sRGB */
+#define BRIGHTEST 0.89 /* 95 % */
+enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14 };
+
+/* What is seen in a block of pixels, in the mean of those that show a surface. */
+typedef struct Block {
+    double light, reflectance;
+    int pixels, faint; /* those that show one; those that have next to nothing of its light */
+} Block;
+
+typedef struct Seen {
+    Block blocks[BLOCKS];
+    int count; /* of blocks that show surfaces */
+    double bright; /* nine tenths of them are darker */
+    double stops;  /* that bring them to a middle grey, and no more than a tenth of them to white */
+    double dark, white; /* shares of them: dark after that; white as they are */
+    int empty;       /* pixels without a surface */
+    double backdrop; /* the mean of their light */
+    int is_noisy;
+} Seen;
+
+/* ---- the picture ---- */
+
+/* Names of files below the folder, whatever becomes of its own name. */
+static void path_of(const LookParams *params, const char *name, const char *ending, char path[PATH_MAX])
+{
+    snprintf(path, PATH_MAX, "/proc/self/fd/%d/%s%s", params->folder, name, ending);
+}
+
+static int find_renderer(char path[PATH_MAX])
+{
+    const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 16);
+    path[length > 0 ? length : 0] = '\0';
+    char *slash = strrchr(path, '/');
+    if (!slash)
+        return 0;
+    strcpy(slash + 1, "retex-render");
+    return access(path, X_OK) == 0;
+}
+
+_Noreturn static void become_renderer(const LookParams *params, const char *program)
+{
+    char scene[PATH_MAX], picture[PATH_MAX], size[32], time[32], memory[32];
+    const char *argv[24] = {program, "-q", "--size", size, "--spp", "8", "--aov", "depth,reflectance", "-o", picture};
+    int argc = 10;
+    const int nothing = open("/dev/null", O_RDWR);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    dup2(nothing, STDIN_FILENO), dup2(nothing, STDOUT_FILENO), dup2(nothing, STDERR_FILENO);
+    fcntl(params->folder, F_SETFD, 0); /* it stays open */
+    path_of(params, params->name, ".pov", scene), path_of(params, PICTURE, "", picture);
+    snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
+    if (params->safe)
+        argv[argc++] = "--safe";
+    snprintf(time, sizeof time, "%.3f", params->seconds);
+    if (params->seconds > 0)
+        argv[argc++] = "--max-time", argv[argc++] = time;
+    snprintf(memory, sizeof memory, "%lluM", (unsigned long long)(params->memory >> 20));
+    if (params->memory)
+        argv[argc++] = "--max-memory", argv[argc++] = memory;
+    argv[argc++] = "--", argv[argc++] = scene;
+    execv(program, (char *const *)argv);
+    _exit(127);
+}
+
+static int render(const LookParams *params, RetexError *err)
+{
+    char program[PATH_MAX];
+    int status = 0;
+    pid_t ended;
+    if (!find_renderer(program))
+        return retex_fail(err, RETEX_ENOTFOUND, "there is no retex-render beside retex-import");
+    const pid_t pid = fork();
+    if (pid == 0)
+        become_renderer(params, program);
+    if (pid < 0)
+        return retex_fail(err, RETEX_EIO, "no process to render: %s", strerror(errno));
+    atomic_store(params->renderer, pid);
+    do
+        ended = waitpid(pid, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    atomic_store(params->renderer, 0);
+    return ended == pid && status == 0 ? RETEX_OK : retex_fail(err, RETEX_EFORMAT, "its scene cannot be rendered");
+}
+
+/* ---- what is seen ---- */
+
+static double luminance_at(const RetexImage *image, int x, int y)
+{
+    const float *p = image->pixels + retex_image_index(image, x, y);
+    return fmax(retex_luminance((double)p[0], (double)p[1], (double)p[2]), 0);
+}
+
+static Block block_of(Seen *seen, const RetexImage *light, const RetexImage *depth, const RetexImage *reflectance,
+                      int x0, int y0)
+{
+    Block block = {0};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const int x = x0 + i % SIDE, y = y0 + i / SIDE;
+        if (!isfinite(depth->pixels[retex_image_index(depth, x, y)])) {
+            seen->empty++, seen->backdrop += luminance_at(light, x, y);
+            continue;
+        }
+        block.light += luminance_at(light, x, y), block.reflectance += luminance_at(reflectance, x, y);
+        block.pixels++;
+    }
+    if (block.pixels)
+        block.light /= block.pixels, block.reflectance /= block.pixels;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const int x = x0 + i % SIDE, y = y0 + i / SIDE;
+        block.faint += isfinite(depth->pixels[retex_image_index(depth, x, y)]) &&
+                       luminance_at(light, x, y) < block.light / 30;
+    }
+    return block;
+}
+
+static int compare_light(const void *a, const void *b)
+{
+    const double x = ((const Block *)a)->light, y = ((const Block *)b)->light;
+    return (x > y) - (x < y);
+}
+
+static void meter(Seen *seen)
+{
+    double sum = 0, faint = 0, pixels = 0;
+    qsort(seen->blocks, (size_t)seen->count, sizeof *seen->blocks, compare_light);
+    seen->bright = seen->count ? seen->blocks[9 * seen->count / 10].light : 0;
+    seen->dark = !(seen->bright > 0);
+    if (seen->dark > 0)
+        return;
+    for (int i = 0; i < seen->count; i++)
+        sum += log2(fmax(seen->blocks[i].light, seen->bright / 256));
+    seen->stops = fmin(log2(GREY) - sum / seen->count, log2(BRIGHTEST / seen->bright));
+    for (int i = 0; i < seen->count; i++) {
+        const Block *b = &seen->blocks[i];
+        const int is_dark = b->light * exp2(seen->stops) < DARKEST;
+        seen->dark += (is_dark && b->reflectance > 0.02) / (double)seen->count; /* black things may be */
+        seen->white += (b->light > BRIGHTEST) / (double)seen->count;
+        faint += is_dark ? 0 : b->faint, pixels += is_dark ? 0 : b->pixels;
+    }
+    seen->is_noisy = faint > 0.25 * pixels;
+}
+
+static const RetexImage *image_of(const RetexSet *set, const char *name)
+{
+    const RetexPart *part = retex_set_part(set, name ? retex_set_find_part(set, name) : 0);
+    return part ? &part->image : NULL;
+}
+
+static int see(const LookParams *params, Seen *seen, RetexError *err)
+{
+    char path[PATH_MAX];
+    RetexSet *set = NULL;
+    memset(seen, 0, sizeof *seen);
+    int code = render(params, err);
+    path_of(params, PICTURE, "", path);
+    if (!code)
+        code = retex_set_read(path, &set, NULL, 1, err);
+    unlinkat(params->folder, PICTURE, 0);
+    const RetexImage *light = code ? NULL : image_of(set, NULL), *depth = code ? NULL : image_of(set, "depth");
+    const RetexImage *reflectance = code ? NULL : image_of(set, "reflectance");
+    for (int i = 0; light && depth && reflectance && i < BLOCKS; i++) {
+        const Block block = block_of(seen, light, depth, reflectance, i % (WIDTH / SIDE) * SIDE, i / (WIDTH / SIDE) * SIDE);
+        if (2 * block.pixels >= SIDE * SIDE)
+            seen->blocks[seen->count++] = block;
+    }
+    retex_set_close(&set);
+    seen->backdrop /= seen->empty ? seen->empty : 1;
+    meter(seen);
+    return code;
+}
+
+/* ---- the numbers in the scene ---- */
+
+/* The number after a text of the scene, and new digits in its place if value is no NAN. Returns NAN where there is none,
+ * or it cannot be replaced. */
+static double number_after(const LookParams *params, const char *key, const char *format, double value)
+{
+    char path[PATH_MAX], number[32], *line = NULL;
+    double was = NAN;
+    size_t size = 0;
+    snprintf(path, sizeof path, "%s.pov", params->name);
+    const int file = openat(params->folder, path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+    FILE *text = file < 0 ? NULL : fdopen(file, "r");
+    off_t at = 0;
+    for (ssize_t length; isnan(was) && text && (length = getline(&line, &size, text)) > 0; at += length) {
+        const char *found = strstr(line, key);
+        if (found)
+            was = strtod(found + strlen(key), NULL), at += found - line + (off_t)strlen(key) - length;
+    }
+    const int digits = snprintf(number, sizeof number, format, value);
+    if (!isnan(was) && !isnan(value) && pwrite(file, number, (size_t)digits, at) != digits)
+        was = NAN;
+    free(line);
+    if (text)
+        fclose(text);
+    else if (file >= 0)
+        close(file);
+    return was;
+}
+
+static int put_number(const LookParams *params, const char *key, const char *format, double value, RetexError *err)
+{
+    return isnan(number_after(params, key, format, value))
+               ? retex_fail(err, RETEX_EIO, "cannot write to %s.pov", params->name)
+               : RETEX_OK;
+}
+
+int look_expose(const LookParams *params, double stops, RetexError *err)
+{
+    return put_number(params, LOOK_EXPOSURE, LOOK_EXPOSURE_FORMAT, stops, err);
+}
+
+static int is_bare(const Seen *seen)
+{
+    return seen->empty > WIDTH * HEIGHT / 5 && seen->backdrop < seen->bright / 256;
+}
+
+/* Light is enough if most of what is seen can be exposed. */
+static int is_enough(const Seen *seen, const LookParams *params)
+{
+    return seen->bright > 0 && seen->dark < 0.35 && seen->stops < MOST_STOPS && !seen->is_noisy &&
+           !(params->is_framed && is_bare(seen));
+}
+
+/* As bright as what there is, or much brighter than its noise; the light that is added makes about a fifth. */
+static double added_to(const Seen *seen)
+{
+    double mean = 0;
+    for (int i = 0; i < seen->count; i++)
+        mean += seen->blocks[i].light / seen->count;
+    return fmax(1, fmin((seen->is_noisy ? 4 : 1) * mean / 0.2, 1e5));
+}
+
+static int add_light(Look *look, const LookParams *params, Seen *seen, RetexError *err)
+{
+    const double added = added_to(seen);
+    int code = put_number(params, LOOK_ADDED_LIGHT, LOOK_ADDED_LIGHT_FORMAT, added, err);
+    look->added = code ? 0 : added;
+    return code ? code : see(params, seen, err);
+}
+
+int look_at(Look *look, const LookParams *params, RetexError *err)
+{
+    Seen seen;
+    memset(look, 0, sizeof *look);
+    int code = see(params, &seen, err);
+    if (code)
+        return code;
+    look->is_seen = seen.count > 0, look->lit = seen.stops < MOST_STOPS ? 1 - seen.dark : 0, look->is_noisy = seen.is_noisy;
+    look->is_bare = is_bare(&seen) && params->is_framed;
+    if (look->is_seen && !is_enough(&seen, params) && number_after(params, LOOK_ADDED_LIGHT, "", NAN) == 0)
+        code = add_light(look, params, &seen, err);
+    look->is_black = !(seen.bright > 0) || seen.stops >= MOST_STOPS;
+    if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.dark < 0.1 && seen.white < 0.1))
+        return code;
+    look->exposure = fmax(seen.stops, -RETEX_EXPOSURE_MAX);
+    return look_expose(params, look->exposure, err);
+}
