@@ -10,25 +10,53 @@ $ look
 
 # By numpy, what the lamp lights is a middle grey, whatever its unit; what is about right stays as it is.
 $ for m in lamp dim bright panel label; do import $m; render $m; done
+> exposure of -
+> lamp: grey
+> exposure of +
+> dim: grey
+> exposure of -
+> bright: grey
+> panel: light
+> soft sky
+> label: light
 $ grep -c 'retex_exposure *+0.00' panel/panel.pov label/label.pov
+> panel/panel.pov:1
+> label/label.pov:1
 
 # So does what a user says.
 $ import lamp -f --exposure -3
 $ grep -o 'retex_exposure *[-+0-9.]*' lamp/lamp.pov
+> retex_exposure   -3.00
 $ import lamp -f --exposure dark
+> error: --exposure: expected a number from -30 to 30, not 'dark'
 
 # Light that is next to none gets some beside it, which can be turned off again; a sky is light, too.
 $ for m in speck out; do
 +     import $m; render $m
 +     sed -i '/Added_light =/s/= .*;/= 0;/' $m/$m.pov; render $m
 + done
+> retex-import: the light of the model reaches 0 % of what is seen: light is added
+> speck: light
+> speck: black
+> retex-import: the light of the model reaches 0 % of what is seen: light is added
+> out: light
+> out: black
+! retex-render: out/out.pov: warning: its light sources are black, nothing shines and there is no sky: the picture will be black
 $ cp "$SCENES/textures/brick.jpg" sky.jpg
 $ for m in speck out; do import $m -f --sky sky.jpg; render $m; done
+> exposure of +
+> speck: light
+> exposure of +
+> out: light
 
 # Things that no camera of the model shows are not before black.
 $ import framed
+> no sky
+> exposure of -
 
 # Without retex-render beside it, the scene is as the model has it.
 $ mkdir alone && cp "$(command -v retex-import)" alone
 $ alone/retex-import dim.gltf -f -o dim 2>&1 | grep look
+> retex-import: no look at the scene: there is no retex-render beside retex-import
 $ render dim
+> dim: black
