@@ -399,7 +399,7 @@ static void tell_look(const Cli *cli, const Look *look, const char *name)
     else if (look->is_black)
         cli_warn(cli, "the picture is black: no light reaches what is seen; --sky FILE lights it, --camera another view");
     else if (look->exposure != 0)
-        cli_info(cli, "an exposure of %+.2f stops brings the picture to a middle grey: retex_exposure in %s.pov",
+        cli_info(cli, "an exposure of %+.2f stops shows white things as white: retex_exposure in %s.pov",
                  look->exposure, name);
 }
 

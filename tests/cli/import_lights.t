@@ -2,7 +2,7 @@
 % judge() { /usr/bin/python3 $TESTS/import_lights.py "$@"; }
 $ judge
 $ for m in shared ball watts spot sun area ellipse away; do
-+     retex-import -q $m.gltf -o $m &&
++     retex-import --exposure 0 -q $m.gltf -o $m &&
 +         retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr &&
 +         judge $m $m.exr
 + done
@@ -17,7 +17,7 @@ $ for m in shared ball watts spot sun area ellipse away; do
 
 # Lengths of lights scale with the scene: it looks the same.
 $ for m in ball area; do
-+     retex-import -q --scale 10 $m.gltf -o big-$m &&
++     retex-import --exposure 0 -q --scale 10 $m.gltf -o big-$m &&
 +         retex-render -q --plain --spp 64 --size 32x32 big-$m/big-$m.pov -o big-$m.exr &&
 +         judge $m big-$m.exr
 + done
@@ -27,7 +27,7 @@ $ for m in ball area; do
 # Falloff of Collada's lights; that scales too.
 $ for m in even squared shifted slow; do
 +     for s in 1 10; do
-+         retex-import -q --scale $s $m.dae -o $m-$s &&
++         retex-import --exposure 0 -q --scale $s $m.dae -o $m-$s &&
 +             retex-render -q --plain --spp 4 --size 32x32 $m-$s/$m-$s.pov -o $m-$s.exr && judge $m $m-$s.exr
 +     done
 + done
@@ -42,7 +42,7 @@ $ for m in even squared shifted slow; do
 
 # An area light is in no light's way: the ceiling above it is lit by all of the floor.
 $ for m in empty behind; do
-+     retex-import -q $m.gltf -o $m &&
++     retex-import --exposure 0 -q $m.gltf -o $m &&
 +         retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr
 + done
 $ judge behind behind.exr empty.exr
@@ -50,7 +50,7 @@ $ judge behind behind.exr empty.exr
 
 # The window of a shifted lens lies a quarter of its width to the right, and half of its height further down, towards
 # the viewer: 4 * 2 tan .3 * .25 is .62, and .5 is 1.24.
-$ retex-import -q lens.gltf -o lens &&
+$ retex-import --exposure 0 -q lens.gltf -o lens &&
 +     retex-render -q --plain --spp 4 --size 32x32 --aov position lens/lens.pov -o lens.exr &&
 +     judge position lens.exr
 > 0.62 0.00 -1.24

@@ -12,7 +12,7 @@ reference() {
 
 # look MODEL OPTION…: the model, seen by the camera of the reference, as MODEL's name with .exr.
 look() {
-    retex-import -q "$@" -o scene || return
+    retex-import --exposure 0 -q "$@" -o scene || return
     grep '^camera' reference.pov >>scene/scene.pov
     first_hits scene/scene.pov "${1%.*}.exr"
     rm -r scene

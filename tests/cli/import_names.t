@@ -5,15 +5,15 @@ $ judge
 
 # Cameras and lights of glTF: of each node of the scene that is shown, whatever its name.
 $ for m in named unnamed empty same alike numbers; do
-+     retex-import -q $m.gltf -o $m && judge places $m
++     retex-import --exposure 0 -q $m.gltf -o $m && judge places $m
 + done
 # They light the scene, and can be chosen by name before number.
-$ retex-import -v numbers.gltf --camera 1 -o one
+$ retex-import --exposure 0 -v numbers.gltf --camera 1 -o one
 ! retex-import: camera 3 of 3 is used, Camera_1; --camera takes another one
 ! retex-import: 1 material, 1 mesh, 1 object, 2 triangles
 ! retex-import: wrote one/one.pov
-$ retex-import -q numbers.gltf --camera 2 -o two
-$ retex-import -q numbers.gltf --camera 3 -o three
+$ retex-import --exposure 0 -q numbers.gltf --camera 2 -o two
+$ retex-import --exposure 0 -q numbers.gltf --camera 3 -o three
 $ grep -h '^camera' one/one.pov two/two.pov three/three.pov
 > camera { Camera_1 }
 > camera { Camera_3 }
@@ -21,9 +21,9 @@ $ grep -h '^camera' one/one.pov two/two.pov three/three.pov
 
 # Of Collada and FBX: the same, unless a camera and a light have one name, which Assimp then does not tell apart.
 $ for m in studio_dae.dae lamps_fbx.fbx; do
-+     retex-import -q $m -o ${m%.*} && judge places ${m%.*}
++     retex-import --exposure 0 -q $m -o ${m%.*} && judge places ${m%.*}
 + done
-$ retex-import --partial shared_fbx.fbx -o shared_fbx && judge places shared_fbx
+$ retex-import --exposure 0 --partial shared_fbx.fbx -o shared_fbx && judge places shared_fbx
 ! retex-import: warning: cameras and lights that cannot be told from others of the same name are left out
 ! retex-import: no camera in the model: the view is from outside, from 1.536,1.306,-1.888 to 0.5,0.5,0, 40 degrees
 ! retex-import: no light in the model: a soft sky lights it
@@ -33,7 +33,7 @@ $ retex-import --partial shared_fbx.fbx -o shared_fbx && judge places shared_fbx
 # Cards side by side, each with its own colour, by materials and images of any name.
 $ for m in cards_colors.gltf cards_images.gltf cards_folders.gltf cards_obj.obj cards_dae.dae cards_3ds.3ds; do
 +     n=${m%.*}
-+     retex-import -q $m -o $n && cat eye.inc >>$n/$n.pov &&
++     retex-import --exposure 0 -q $m -o $n && cat eye.inc >>$n/$n.pov &&
 +         retex-render -q --plain --spp 1 --size 120x10 --aov albedo $n/$n.pov -o $n.exr &&
 +         judge cards $n.exr
 + done

@@ -2,7 +2,7 @@
 $ /usr/bin/python3 $TESTS/import_variants.py
 
 # What there is to choose from.
-$ retex-import --list-variants variants.gltf
+$ retex-import --exposure 0 --list-variants variants.gltf
 > Red
 > Print
 > Wet floor
@@ -10,16 +10,16 @@ $ retex-import --list-variants variants.gltf
 > Glass
 > As it is
 > Wet red
-$ retex-import --list-variants Red.gltf
-$ retex-import --list-variants odd.gltf
+$ retex-import --exposure 0 --list-variants Red.gltf
+$ retex-import --exposure 0 --list-variants odd.gltf
 > variants[0]
 > variants[1]
 > A
 > A
-$ retex-import --variant blue -o none variants.gltf
+$ retex-import --exposure 0 --variant blue -o none variants.gltf
 ! retex-import: error: variants.gltf: it has no variant `blue`; there are `Red`, `Print`, `Wet floor`, `Brass`, `Glass`, `As it is`, `Wet red`
 = 2
-$ retex-import --variant Red -o none Red.gltf
+$ retex-import --exposure 0 --variant Red -o none Red.gltf
 ! retex-import: error: Red.gltf: it has no variants
 = 2
 $ cat >card.obj <<'END'
@@ -28,11 +28,11 @@ $ cat >card.obj <<'END'
 + v 0 1 0
 + f 1 2 3
 + END
-$ retex-import --variant Red -o none card.obj
+$ retex-import --exposure 0 --variant Red -o none card.obj
 ! retex-import: error: card.obj: only glTF files have variants
 = 2
-$ retex-import --list-variants card.obj
-$ retex-import -o none many.gltf
+$ retex-import --exposure 0 --list-variants card.obj
+$ retex-import --exposure 0 -o none many.gltf
 ! retex-import: error: many.gltf: it has more than 1024 variants; choose one of them by --variant
 = 2
 $ ls none
@@ -40,7 +40,7 @@ $ ls none
 = 2
 
 # One variant is the file that has its materials.
-% look() { retex-import -q "$@" && retex-render -q --plain --spp 64 --size 64x48 $2/$2.pov -o $2.exr; }
+% look() { retex-import --exposure 0 -q "$@" && retex-render -q --plain --spp 64 --size 64x48 $2/$2.pov -o $2.exr; }
 $ for v in Red Print 'Wet floor' Brass Glass 'As it is' 'wet RED'; do
 +     rm -rf one file
 +     n=$v
@@ -52,7 +52,7 @@ $ for v in Red Print 'Wet floor' Brass Glass 'As it is' 'wet RED'; do
 + done
 
 # All of them from one render: as the table says.
-$ retex-import -o all variants.gltf 2>&1 | grep variant
+$ retex-import --exposure 0 -o all variants.gltf 2>&1 | grep variant
 > retex-import: 6 variants, from one render, in the scene's folder: retex-render 'all.pov' -t Floor --finish Floor=original,Floor_Wet_floor_finish -t Seat --finish Seat=original,Seat_Brass_finish | retex-combine - --batch 'all-variants.csv'
 > retex-import: the variant `Glass` needs a scene of its own: --variant 'Glass'
 $ cat all/all-variants.csv
@@ -79,13 +79,13 @@ $ for v in Red Print Wet_floor Brass Wet_red; do
 % cd ..
 
 # Mappings that lead nowhere change nothing. Colours of vertices would be lost.
-$ retex-import -q -o astray astray.gltf && ls astray
+$ retex-import --exposure 0 -q -o astray astray.gltf && ls astray
 > astray-meshes.inc
 > astray.pov
-$ retex-import -o odd odd.gltf 2>&1 | grep -c variant
+$ retex-import --exposure 0 -o odd odd.gltf 2>&1 | grep -c variant
 > 0
 = 1
 
 # What Assimp leaves out of a material is that material's.
-$ retex-import -q -o order order.gltf && grep emission order/order.pov
+$ retex-import --exposure 0 -q -o order order.gltf && grep emission order/order.pov
 >     diffuse 0 emission rgb 7

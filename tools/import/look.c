@@ -19,7 +19,8 @@
 #include "import/base/look_text.h"
 
 #define PICTURE ".look.exr"
-#define GREY 0.18
+#define DARK_CARD 0.18 /* of a meter of incident light: the least reflectance of what is seen that it is set to */
+#define BRIGHT_CARD 0.45
 #define DARKEST 0.0039 /* 5 % of the range of sRGB */
 #define BRIGHTEST 0.89 /* 95 % */
 enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14 };
@@ -34,7 +35,7 @@ typedef struct Seen {
     Block blocks[BLOCKS];
     int count; /* of blocks that show surfaces */
     double bright; /* nine tenths of them are darker */
-    double stops;  /* that bring them to a middle grey, and no more than a tenth of them to white */
+    double stops;  /* that bring them to their reflectance, and no more than a tenth of them to white */
     double dark, white; /* shares of them: dark after that; white as they are */
     int empty;       /* pixels without a surface */
     double backdrop; /* the mean of their light */
@@ -143,15 +144,18 @@ static int compare_light(const void *a, const void *b)
 
 static void meter(Seen *seen)
 {
-    double sum = 0, faint = 0, pixels = 0;
+    double sum = 0, reflectance = 0, faint = 0, pixels = 0;
     qsort(seen->blocks, (size_t)seen->count, sizeof *seen->blocks, compare_light);
     seen->bright = seen->count ? seen->blocks[9 * seen->count / 10].light : 0;
     seen->dark = !(seen->bright > 0);
     if (seen->dark > 0)
         return;
-    for (int i = 0; i < seen->count; i++)
+    for (int i = 0; i < seen->count; i++) {
         sum += log2(fmax(seen->blocks[i].light, seen->bright / 256));
-    seen->stops = fmin(log2(GREY) - sum / seen->count, log2(BRIGHTEST / seen->bright));
+        reflectance += seen->blocks[i].reflectance / seen->count;
+    }
+    const double card = fmin(fmax(reflectance, DARK_CARD), BRIGHT_CARD);
+    seen->stops = fmin(log2(card) - sum / seen->count, log2(BRIGHTEST / seen->bright));
     for (int i = 0; i < seen->count; i++) {
         const Block *b = &seen->blocks[i];
         const int is_dark = b->light * exp2(seen->stops) < DARKEST;

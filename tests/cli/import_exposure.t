@@ -1,5 +1,5 @@
 # retex-import: a first look at the scene chooses its exposure, and adds light where the model has too little.
-% look() { /usr/bin/python3 $TESTS/import_look.py "$@"; }
+% look() { /usr/bin/python3 $TESTS/import_exposure.py "$@"; }
 % import() {
 %     m=$1; shift; retex-import $m.gltf "$@" -o $m 2>&1 |
 %         grep -o -e 'exposure of [+-]' -e 'warning.*' -e 'soft sky' -e '^.*light is added' -e 'no sky' -e 'error.*' ||
@@ -8,14 +8,14 @@
 % render() { retex-render -q --plain --spp 64 --size 160x120 $1/$1.pov -o $1.exr && echo $1: $(look $1.exr); }
 $ look
 
-# By numpy, what the lamp lights is a middle grey, whatever its unit; what is about right stays as it is.
+# By numpy, what the lamp lights has about its reflectance, .48, whatever its unit; what is about right stays as it is.
 $ for m in lamp dim bright panel label; do import $m; render $m; done
 > exposure of -
-> lamp: grey
+> lamp: as a floor
 > exposure of +
-> dim: grey
+> dim: as a floor
 > exposure of -
-> bright: grey
+> bright: as a floor
 > panel: light
 > soft sky
 > label: light

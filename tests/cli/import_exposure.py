@@ -1,4 +1,4 @@
-"""Models for import_look.t: a floor of 10 x 10 m with a square above it that shines, of some size and strength, or with a
+"""Models for import_exposure.t: a floor of 10 x 10 m with a square above it that shines, of some size and strength, or with a
 lamp; and the mean radiance of a picture."""
 import json
 import struct
@@ -58,7 +58,7 @@ def judge(path):
     picture = luminance(path)
     seen = picture[picture > 0]
     mean = np.exp2(np.mean(np.log2(np.maximum(seen, np.quantile(seen, .9) / 256)))) if len(seen) else 0
-    return 'black' if mean < 1 / 500 else 'grey' if .12 < mean < .27 else 'light'
+    return 'black' if mean < 1 / 500 else 'as a floor' if .22 < mean < .6 else 'light'
 
 
 if len(sys.argv) > 1:
