@@ -58,7 +58,7 @@ def judge(path):
     picture = luminance(path)
     seen = picture[picture > 0]
     mean = np.exp2(np.mean(np.log2(np.maximum(seen, np.quantile(seen, .9) / 256)))) if len(seen) else 0
-    return 'black' if mean < 1 / 500 else 'as a floor' if .22 < mean < .6 else 'light'
+    return 'black' if mean < 1 / 500 else 'as a floor' if .12 < mean < .6 else 'light'
 
 
 if len(sys.argv) > 1:

@@ -8,7 +8,7 @@
 % render() { retex-render -q --plain --spp 64 --size 160x120 $1/$1.pov -o $1.exr && echo $1: $(look $1.exr); }
 $ look
 
-# By numpy, what the lamp lights has about its reflectance, .48, whatever its unit; what is about right stays as it is.
+# By numpy, what the lamp lights is between a dark grey and its reflectance, .48, whatever its unit; what is about right stays as it is.
 $ for m in lamp dim bright panel label; do import $m; render $m; done
 > exposure of -
 > lamp: as a floor
