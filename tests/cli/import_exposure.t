@@ -18,7 +18,7 @@ $ for m in lamp dim bright panel label; do import $m; render $m; done
 > bright: as a floor
 > panel: light
 > soft sky
-> label: light
+> label: as a floor
 $ grep -c 'retex_exposure *+0.00' panel/panel.pov label/label.pov
 > panel/panel.pov:1
 > label/label.pov:1
@@ -36,18 +36,18 @@ $ for m in speck out; do
 +     sed -i '/Added_light =/s/= .*;/= 0;/' $m/$m.pov; render $m
 + done
 > retex-import: the light of the model reaches 0 % of what is seen: light is added
-> speck: light
+> speck: as a floor
 > speck: black
 > retex-import: the light of the model reaches 0 % of what is seen: light is added
-> out: light
+> out: as a floor
 > out: black
 ! retex-render: out/out.pov: warning: its light sources are black, nothing shines and there is no sky: the picture will be black
 $ cp "$SCENES/textures/brick.jpg" sky.jpg
 $ for m in speck out; do import $m -f --sky sky.jpg; render $m; done
 > exposure of +
-> speck: light
+> speck: as a floor
 > exposure of +
-> out: light
+> out: as a floor
 
 # Things that no camera of the model shows are not before black.
 $ import framed
