@@ -44,6 +44,7 @@ $ cat own/own.pov
 >   radiosity { count 200 error_bound 0.5 recursion_limit 2 }
 > }
 > #default { finish { ambient 0 } }
+> #ifdef (Retex) global_settings { retex_exposure   +0.00 } #end // stops, by which pictures are brighter
 >
 > // ---- camera ----
 >
@@ -59,7 +60,11 @@ $ cat own/own.pov
 >
 > // ---- light ----
 >
-> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }
+> // Light that the model lacks: how bright it is, 0 where it has enough of its own.
+> #declare Added_light =      1.000;
+> #if (Added_light > 0)
+> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_light] [1 rgb Added_light] } scale 2 translate -y } }
+> #end
 >
 > // ---- materials: each can be a target of retexturing ----
 >
@@ -211,6 +216,7 @@ $ retex-import --exposure 0 -q screen.gltf -o screen && grep -A6 declare.Screen 
 
 # Names become identifiers.
 $ retex-import --exposure 0 names.obj -o names && grep declare names/names.pov
+> #declare Added_light =      1.000;
 > #declare Sphere = texture {
 > #declare Sphere_2 = texture {
 > #declare Material_2nd = texture {
