@@ -409,7 +409,7 @@ static void look(const Cli *cli, const Request *r)
     const LookParams params = {.folder = unfinished_folder,
                                .name = r->import.name,
                                .is_framed = is_framed,
-                               .safe = r->import.safe,
+                               .max_pixels = r->import.max_pixels,
                                .seconds = cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS,
                                .memory = retex_budget_memory(cli->budget),
                                .renderer = &child};

@@ -63,23 +63,26 @@ static int find_renderer(char path[PATH_MAX])
 
 _Noreturn static void become_renderer(const LookParams *params, const char *program)
 {
-    char scene[PATH_MAX], picture[PATH_MAX], size[32], time[32], memory[32];
-    const char *argv[24] = {program, "-q", "--size", size, "--spp", "8", "--aov", "depth,reflectance", "-o", picture};
-    int argc = 10;
+    char scene[PATH_MAX], picture[PATH_MAX], size[32], time[32], memory[32], pixels[32];
+    /* the pictures are a stranger's: they are decoded without rights */
+    const char *argv[24] = {program, "--safe", "-q",    "--size",            size, "--spp",
+                            "8",     "--aov",  "depth,reflectance", "-o", picture};
+    int argc = 11;
     const int nothing = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(nothing, STDIN_FILENO), dup2(nothing, STDOUT_FILENO), dup2(nothing, STDERR_FILENO);
     fcntl(params->folder, F_SETFD, 0); /* it stays open */
     path_of(params, params->name, ".pov", scene), path_of(params, PICTURE, "", picture);
     snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
-    if (params->safe)
-        argv[argc++] = "--safe";
     snprintf(time, sizeof time, "%.3f", params->seconds);
     if (params->seconds > 0)
         argv[argc++] = "--max-time", argv[argc++] = time;
     snprintf(memory, sizeof memory, "%lluM", (unsigned long long)(params->memory >> 20));
     if (params->memory)
         argv[argc++] = "--max-memory", argv[argc++] = memory;
+    snprintf(pixels, sizeof pixels, "%ld", params->max_pixels);
+    if (params->max_pixels)
+        argv[argc++] = "--max-pixels", argv[argc++] = pixels;
     argv[argc++] = "--", argv[argc++] = scene;
     execv(program, (char *const *)argv);
     _exit(127);

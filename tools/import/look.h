@@ -13,9 +13,9 @@ typedef struct LookParams {
     int folder;       /* of the scene, open */
     const char *name; /* of the scene: NAME.pov in it */
     int is_framed;    /* the view is none of the model's cameras: it is not to be of things before black */
-    int safe;
     double seconds;          /* 0: no limit */
     uint64_t memory;         /* bytes; 0: no limit */
+    long max_pixels;         /* of its pictures; 0: no other limit than that of --safe */
     _Atomic pid_t *renderer; /* its process while it runs, else 0 */
 } LookParams;
 
