@@ -103,8 +103,8 @@ static const CliOption options[] = {
     {"scale", 0, "S", "multiply all lengths", 0, CLI_CALL(Request, import, take_scale)},
     {"lights", 0, "F", "multiply the light of all light sources", 0, CLI_NUMBER(Request, import.lights, 0, 1e9)},
     {"exposure", 0, "auto|STOPS",
-     "by which pictures are brighter: what a first look at the scene asks for, the default, or 2^STOPS without a look", 0,
-     CLI_CALL(Request, exposure, take_exposure)},
+     "by which pictures are brighter: what a first look at the scene asks for, the default, or 2^STOPS without a look",
+     0, CLI_CALL(Request, exposure, take_exposure)},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0,
      CLI_NUMBER(Request, import.smooth, 0, 175)},
     {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0,
@@ -387,17 +387,22 @@ static void begin_folder(const Cli *cli, const char *folder)
 static void tell_look(const Cli *cli, const Look *look, const char *name)
 {
     if (look->added > 0 && look->is_noisy)
-        cli_info(cli, "the light of the model comes by few ways, as of a lamp in a housing or a sun behind glass, and is "
-                      "noise in the picture: light is added, Added_light in %s.pov, 0 without", name);
+        cli_info(cli,
+                 "the light of the model comes by few ways, as of a lamp in a housing or a sun behind glass, and is "
+                 "noise in the picture: light is added, Added_light in %s.pov, 0 without",
+                 name);
     else if (look->added > 0 && look->is_bare)
         cli_info(cli, "the model has no sky: one is added, Added_light in %s.pov, 0 without", name);
     else if (look->added > 0)
-        cli_info(cli, "the light of the model reaches %.0f %% of what is seen: light is added, Added_light in %s.pov, 0 "
-                      "without", 100 * look->lit, name);
+        cli_info(cli,
+                 "the light of the model reaches %.0f %% of what is seen: light is added, Added_light in %s.pov, 0 "
+                 "without",
+                 100 * look->lit, name);
     if (!look->is_seen)
         cli_warn(cli, "nothing is seen in the picture: --camera chooses another view");
     else if (look->is_black)
-        cli_warn(cli, "the picture is black: no light reaches what is seen; --sky FILE lights it, --camera another view");
+        cli_warn(cli, "the picture is black: no light reaches what is seen; --sky FILE lights it, --camera another "
+                      "view");
     else if (look->exposure != 0)
         cli_info(cli, "an exposure of %+.2f stops shows white things as white: retex_exposure in %s.pov",
                  look->exposure, name);

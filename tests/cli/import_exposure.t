@@ -66,4 +66,4 @@ $ printf '%s\n' '#!/bin/sh' 'echo "$@" | sed "s,/[^ ]*/,,g" >seen.txt; exit 1' >
 $ alone/retex-import --max-memory 3G --max-time 20 dim.gltf -f -o dim 2>&1 | grep look
 > retex-import: no look at the scene: its scene cannot be rendered
 $ cat seen.txt
-> --safe -q --size 96x72 --spp 8 --aov depth,reflectance -o .look.exr --max-time 20.000 --max-memory 3072M -- dim.pov
+> --safe -q --size 96x72 --spp 8 --aov depth,reflectance -o .look.exr --max-time 20.000 --max-memory 3072M --max-pixels 268435456 -- dim.pov

@@ -34,17 +34,13 @@ commits 1 subject
 page 'commit COMMIT'
 commits 60 other
 says '' "a page whose subject nobody touched is not old"
-commits 1 subject
-says '^docs/speed.md was made from commit [0-9a-f]+, 62 commits before the last change of subject: make figures PAGES=speed$' \
-    "a page whose subject was touched 62 commits later is old"
-page 'commit COMMIT'
-commits 49 subject
-says '' "50 commits are no age"
+commits 25 subject
+says '' "25 changes are no age, with others between them"
 echo more >>subject/file
-says '51 commits before' "a change that is not committed counts as the next commit"
+says '26 changes of subject ago' "a change that is not committed counts as another one"
 command git checkout -q subject
 commits 1 subject
-says '51 commits before' "51 commits are"
+says '^docs/speed.md was made from commit [0-9a-f]+, 26 changes of subject ago: make figures PAGES=speed$' "26 changes are"
 page 'commit COMMIT with changes'
 says 'with changes: of no commit$' "a page of no commit"
 page 'commit 0123456789abcdef'

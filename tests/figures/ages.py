@@ -1,8 +1,8 @@
-"""No page of measured figures is older than its subject by more than 50 commits: ages.py
+"""No page of measured figures is older than its subject by more than 25 changes: ages.py
 
-pages.txt, beside this file, names each page's subject. The page says from which commit it was made. From there to the
-last commit that touched the subject there may be 50 commits; a subject that nobody touched makes no page old. Changes of
-the subject that are not committed yet count as the next commit. Prints a line for each page that is older, or is of no
+pages.txt, beside this file, names each page's subject. The page says from which commit it was made. Since then there may
+be 25 commits that touched the subject, and no more. Changes of it that are not committed yet count as another one.
+Prints a line for each page that is older, or is of no
 commit of this repository, and exits with 1. Pages whose material is not there cannot be made. Without the repository's
 history, as in a source package, there is nothing to check.
 """
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-MOST = 50
+MOST = 25
 
 
 def git(*words):
@@ -44,11 +44,10 @@ def wrong(page, subject):
     if git("merge-base", "--is-ancestor", found[1], "HEAD").returncode:
         return f"docs/{page}.md was made from commit {found[1]}, which HEAD does not stand on"
     changed = git("status", "--porcelain", "--", *subject).stdout != ""
-    last = "HEAD" if changed else git("log", "-1", "--format=%H", "--", *subject).stdout.strip()
-    count = int(git("rev-list", "--count", f"{found[1]}..{last}").stdout or 0) + changed
+    count = int(git("rev-list", "--count", f"{found[1]}..HEAD", "--", *subject).stdout or 0) + changed
     if count > MOST:
-        return (f"docs/{page}.md was made from commit {found[1]}, {count} commits before the last change of "
-                f"{', '.join(subject)}: make figures PAGES={page}")
+        return (f"docs/{page}.md was made from commit {found[1]}, {count} changes of "
+                f"{', '.join(subject)} ago: make figures PAGES={page}")
     return None
 
 

@@ -160,7 +160,8 @@ static void write_head(const Import *import, FILE *out)
             "  radiosity { count 200 error_bound 0.5 recursion_limit 2 }\n"
             "}\n"
             "#default { finish { ambient 0 } }\n"
-            "#ifdef (Retex) global_settings { " LOOK_EXPOSURE LOOK_EXPOSURE_FORMAT " } #end // stops, by which pictures are brighter\n\n",
+            "#ifdef (Retex) global_settings { " LOOK_EXPOSURE LOOK_EXPOSURE_FORMAT
+            " } #end // stops, by which pictures are brighter\n\n",
             import_plain(slash ? slash + 1 : import->options->model, plain), RETEX_VERSION, name, name, 0.0);
     if (import->variants.command)
         fprintf(out, "// The variants of %s-variants.csv, in this folder:\n//   %s\n\n", name,

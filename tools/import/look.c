@@ -188,7 +188,8 @@ static int see(const LookParams *params, Seen *seen, RetexError *err)
     const RetexImage *light = code ? NULL : image_of(set, NULL), *depth = code ? NULL : image_of(set, "depth");
     const RetexImage *reflectance = code ? NULL : image_of(set, "reflectance");
     for (int i = 0; light && depth && reflectance && i < BLOCKS; i++) {
-        const Block block = block_of(seen, light, depth, reflectance, i % (WIDTH / SIDE) * SIDE, i / (WIDTH / SIDE) * SIDE);
+        const int across = WIDTH / SIDE;
+        const Block block = block_of(seen, light, depth, reflectance, i % across * SIDE, i / across * SIDE);
         if (2 * block.pixels >= SIDE * SIDE)
             seen->blocks[seen->count++] = block;
     }
@@ -200,7 +201,7 @@ static int see(const LookParams *params, Seen *seen, RetexError *err)
 
 /* ---- the numbers in the scene ---- */
 
-/* The number after a text of the scene, and new digits in its place if value is no NAN. Returns NAN where there is none,
+/* The number after a text of the scene; new digits take its place if value is no NAN. Returns NAN where there is none,
  * or it cannot be replaced. */
 static double number_after(const LookParams *params, const char *key, const char *format, double value)
 {
@@ -275,7 +276,8 @@ int look_at(Look *look, const LookParams *params, RetexError *err)
     int code = see(params, &seen, err);
     if (code)
         return code;
-    look->is_seen = seen.count > 0, look->lit = seen.stops < MOST_STOPS ? 1 - seen.dark : 0, look->is_noisy = seen.is_noisy;
+    look->is_seen = seen.count > 0, look->is_noisy = seen.is_noisy;
+    look->lit = seen.stops < MOST_STOPS ? 1 - seen.dark : 0;
     look->is_bare = is_bare(&seen) && params->is_framed;
     if (look->is_seen && !is_enough(&seen, params) && number_after(params, LOOK_ADDED_LIGHT, "", NAN) == 0)
         code = add_light(look, params, &seen, err);
