@@ -422,7 +422,7 @@ static void look(const Cli *cli, const Request *r)
     RetexError err = {0};
     const int is_said = !isnan(r->exposure);
     if (is_said ? look_expose(&params, r->exposure, &err) : look_at(&seen, &params, &err))
-        cli_info(cli, "no look at the scene: %s", err.message);
+        cli_warn(cli, "no look at the scene: %s", err.message);
     else if (!is_said)
         tell_look(cli, &seen, r->import.name);
 }

@@ -6,6 +6,8 @@ $ /usr/bin/python3 $TESTS/import_models.py && reference
 $ for m in card.gltf card.glb second.gltf opaque.gltf words.gltf quantized.gltf quantized.glb card.obj card.dae; do
 +     look $m && same ${m%.*}.exr reference.exr
 + done
+# Numbered sets of UV in any order, and with gaps.
+$ for m in uv_turned uv_gap; do look $m.gltf && same $m.exr reference.exr; done
 $ for m in card.stl card.ply; do
 +     look $m --up z && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 card.exr reference.exr
 + done

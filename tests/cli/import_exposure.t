@@ -57,13 +57,13 @@ $ import framed
 # Without retex-render beside it, the scene is as the model has it.
 $ mkdir alone && cp "$(command -v retex-import)" alone
 $ alone/retex-import dim.gltf -f -o dim 2>&1 | grep look
-> retex-import: no look at the scene: there is no retex-render beside retex-import
+> retex-import: warning: no look at the scene: there is no retex-render beside retex-import
 $ render dim
 > dim: black
 
 # It renders with the limits of the import, and leaves decoding of pictures to a process without rights.
 $ printf '%s\n' '#!/bin/sh' 'echo "$@" | sed "s,/[^ ]*/,,g" >seen.txt; exit 1' >alone/retex-render && chmod +x alone/retex-render
 $ alone/retex-import --max-memory 3G --max-time 20 dim.gltf -f -o dim 2>&1 | grep look
-> retex-import: no look at the scene: its scene cannot be rendered
+> retex-import: warning: no look at the scene: its scene cannot be rendered
 $ cat seen.txt
-> --safe -q --size 96x72 --spp 8 --aov depth,reflectance -o .look.exr --max-time 20.000 --max-memory 3072M --max-pixels 268435456 -- dim.pov
+> --safe --accept-damaged -q --size 96x72 --spp 8 --aov depth,reflectance -o .look.exr --max-time 20.000 --max-memory 3072M --max-pixels 268435456 -- dim.pov

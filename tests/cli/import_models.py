@@ -87,6 +87,13 @@ inside['bufferViews'].append({'buffer': 0, 'byteOffset': 92, 'byteLength': len(F
 inside['buffers'] = [{'byteLength': 92 + len(F)}]
 card = glb(inside, buffer + F)
 write('card.glb', card)
+second = {'index': 0, 'texCoord': 2}
+for name, sets in ('uv_turned', ('TEXCOORD_2', 'TEXCOORD_0', 'TEXCOORD_1')), ('uv_gap', ('TEXCOORD_2', 'TEXCOORD_0')):
+    model = gltf(dict(MATERIAL, pbrMetallicRoughness={'baseColorTexture': second, 'metallicFactor': 0}), second_uv=True)
+    of = model['meshes'][0]['primitives'][0]['attributes']
+    model['meshes'][0]['primitives'][0]['attributes'] = dict(
+        [(s, of['TEXCOORD_1' if s == 'TEXCOORD_2' else 'TEXCOORD_0']) for s in sets], POSITION=0)
+    write(name + '.gltf', json.dumps(model))
 write('second.gltf', json.dumps(gltf(dict(MATERIAL, pbrMetallicRoughness={
     'baseColorTexture': {'index': 0, 'texCoord': 1}, 'metallicFactor': 0}), second_uv=True)))
 turned = dict(MATERIAL, pbrMetallicRoughness={'metallicFactor': 0, 'baseColorTexture': {

@@ -23,7 +23,7 @@
 #define BRIGHT_CARD 0.45
 #define DARKEST 0.0039 /* 5 % of the range of sRGB */
 #define BRIGHTEST 0.89 /* 95 % */
-enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14 };
+enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14, WHY_SIZE = 512 };
 
 /* What is seen in a block of pixels, in the mean of those that show a surface. */
 typedef struct Block {
@@ -61,16 +61,16 @@ static int find_renderer(char path[PATH_MAX])
     return access(path, X_OK) == 0;
 }
 
-_Noreturn static void become_renderer(const LookParams *params, const char *program)
+_Noreturn static void become_renderer(const LookParams *params, const char *program, int errors)
 {
     char scene[PATH_MAX], picture[PATH_MAX], size[32], time[32], memory[32], pixels[32];
     /* the pictures are a stranger's: they are decoded without rights */
-    const char *argv[24] = {program, "--safe", "-q",    "--size",            size, "--spp",
-                            "8",     "--aov",  "depth,reflectance", "-o", picture};
-    int argc = 11;
+    const char *argv[24] = {program, "--safe", "--accept-damaged", "-q", "--size", size, "--spp",
+                            "8", "--aov", "depth,reflectance", "-o", picture};
+    int argc = 12;
     const int nothing = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    dup2(nothing, STDIN_FILENO), dup2(nothing, STDOUT_FILENO), dup2(nothing, STDERR_FILENO);
+    dup2(nothing, STDIN_FILENO), dup2(nothing, STDOUT_FILENO), dup2(errors, STDERR_FILENO);
     fcntl(params->folder, F_SETFD, 0); /* it stays open */
     path_of(params, params->name, ".pov", scene), path_of(params, PICTURE, "", picture);
     snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
@@ -88,24 +88,51 @@ _Noreturn static void become_renderer(const LookParams *params, const char *prog
     _exit(127);
 }
 
+/* What the renderer says is wrong, without the names of this folder; "" where it says nothing. */
+static void read_error(const LookParams *params, int errors, char why[WHY_SIZE])
+{
+    char line[4096], folder[64];
+    const int length = snprintf(folder, sizeof folder, "/proc/self/fd/%d/", params->folder);
+    FILE *from = fdopen(errors, "r");
+    *why = '\0';
+    while (from && fgets(line, sizeof line, from)) {
+        const char *said = strstr(line, "error: ");
+        for (char *at; (at = strstr(line, folder));)
+            memmove(at, at + length, strlen(at + length) + 1);
+        if (said && !*why)
+            snprintf(why, WHY_SIZE, ": %.*s", (int)strcspn(said + 7, "\n"), said + 7);
+    }
+    if (from)
+        fclose(from);
+    else
+        close(errors);
+}
+
 static int render(const LookParams *params, RetexError *err)
 {
-    char program[PATH_MAX];
-    int status = 0;
+    char program[PATH_MAX], why[WHY_SIZE];
+    int ends[2], status = 0;
     pid_t ended;
     if (!find_renderer(program))
         return retex_fail(err, RETEX_ENOTFOUND, "there is no retex-render beside retex-import");
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return retex_fail(err, RETEX_EIO, "no pipe: %s", strerror(errno));
     const pid_t pid = fork();
     if (pid == 0)
-        become_renderer(params, program);
-    if (pid < 0)
+        become_renderer(params, program, ends[1]);
+    close(ends[1]);
+    if (pid < 0) {
+        close(ends[0]);
         return retex_fail(err, RETEX_EIO, "no process to render: %s", strerror(errno));
+    }
     atomic_store(params->renderer, pid);
+    read_error(params, ends[0], why);
     do
         ended = waitpid(pid, &status, 0);
     while (ended < 0 && errno == EINTR);
     atomic_store(params->renderer, 0);
-    return ended == pid && status == 0 ? RETEX_OK : retex_fail(err, RETEX_EFORMAT, "its scene cannot be rendered");
+    return ended == pid && status == 0 ? RETEX_OK
+                                       : retex_fail(err, RETEX_EFORMAT, "its scene cannot be rendered%s", why);
 }
 
 /* ---- what is seen ---- */

@@ -58,6 +58,50 @@ static int without(json_t *of, const char *key)
     return json_object_get(of, key) && json_object_del(of, key) == 0;
 }
 
+/* Assimp wants numbered attributes without gaps and in their order, which glTF does not: a gap is filled by a set that
+ * there is. Returns 1 if any are moved. */
+static int order_sets(json_t *attributes, const char *prefix)
+{
+    enum { MOST_SETS = 8 };
+    json_t *sets[MOST_SETS], *any = NULL;
+    char key[32];
+    int last = -1, is_odd = 0, seen = 0;
+    const char *name;
+    json_t *value;
+    json_object_foreach (attributes, name, value)
+        if (strncmp(name, prefix, strlen(prefix)) == 0) {
+            snprintf(key, sizeof key, "%s%d", prefix, seen++);
+            is_odd |= strcmp(name, key) != 0;
+        }
+    for (int i = 0; i < MOST_SETS && is_odd; i++) {
+        snprintf(key, sizeof key, "%s%d", prefix, i);
+        sets[i] = json_incref(json_object_get(attributes, key));
+        if (without(attributes, key))
+            last = i, any = any ? any : sets[i];
+    }
+    for (int i = 0; i <= last; i++) {
+        snprintf(key, sizeof key, "%s%d", prefix, i);
+        json_object_set(attributes, key, sets[i] ? sets[i] : any);
+    }
+    for (int i = 0; i <= last; i++)
+        json_decref(sets[i]);
+    return last >= 0;
+}
+
+static int order_attributes(json_t *json)
+{
+    static const char *const prefixes[] = {"TEXCOORD_", "COLOR_"};
+    const json_t *meshes = json_object_get(json, "meshes");
+    int any = 0;
+    for (size_t i = 0; i < json_array_size(meshes); i++) {
+        const json_t *primitives = json_object_get(json_array_get(meshes, i), "primitives");
+        for (size_t k = 0; k < json_array_size(primitives); k++)
+            for (size_t p = 0; p < sizeof prefixes / sizeof *prefixes; p++)
+                any |= order_sets(json_object_get(json_array_get(primitives, k), "attributes"), prefixes[p]);
+    }
+    return any;
+}
+
 /* Cameras and lights, which Assimp knows by the names of nodes alone, and refuses where these are the same. They are
  * taken from nodes themselves (nodes.c). Returns 1 if there were any. */
 static int drop_cameras_and_lights(json_t *json)
@@ -225,6 +269,7 @@ static int change(GltfFloats *f)
         any |= drop_hidden(f->json);
         any |= take_images(f->json);
         any |= take_weights(f->json);
+        any |= order_attributes(f->json);
         any |= drop_cameras_and_lights(f->json);
         any |= gltf_place_instances(f);
     }
