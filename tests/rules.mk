@@ -31,7 +31,7 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/common/confine.o
 $(BUILD)/tests/unit/test_beneath: $(BUILD)/obj/tools/common/beneath.o
 # What retex-import asks of a model's surfaces, and its transforms, are tested without Assimp.
-$(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/space/%.o,space room room_view)
+$(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/space/%.o,space room picture score views)
 $(BUILD)/tests/unit/test_import_base: $(BUILD)/obj/tools/import/base/affine.o
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.

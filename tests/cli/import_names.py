@@ -287,7 +287,7 @@ def places(name):
         text = scene.read()
     number = r'<([^>]*)>'
     found = [['camera', *vector(at), *(np.subtract(vector(to), vector(at)).tolist())] for at, to in re.findall(
-        r'#declare \w+ = camera \{\s*location ' + number + r'.*?look_at ' + number, text, re.S)]
+        r'#declare (?!View_)\w+ = camera \{\s*location ' + number + r'.*?look_at ' + number, text, re.S)]
     for at, rest in re.findall(r'^light_source \{ ' + number + r'(.*)$', text, re.M):
         to = re.search('point_at ' + number, rest)
         color = vector(re.search('rgb ' + number, rest)[1])

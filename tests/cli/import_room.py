@@ -231,7 +231,7 @@ def judge_view(name, model):
             distances.append(distance)
     furniture = sum(share for what, share in seen.items() if what not in ('Floor', 'Walls', 'nothing'))
     things = sum(share > .005 for what, share in seen.items() if what not in ('Floor', 'Walls', 'nothing'))
-    if furniture < .1 or (furniture < .15 and things < 2):
+    if furniture < .05 or things < min(2, len(model['boxes'])):
         wrong.append('%g of the picture is furniture, %d pieces' % (furniture, things))
     if seen.get('Floor', 0) < .08:
         wrong.append('%g of the picture is floor' % seen.get('Floor', 0))

@@ -6,6 +6,7 @@
 #include "import/base/tell.h"
 #include "import/scene/scene.h"
 #include "import/sense/sense.h"
+#include "import/space/views.h"
 
 static int count_cameras(const Import *import)
 {
@@ -42,29 +43,29 @@ static int place(const Import *import, int index, double at[3], double to[3], do
 }
 
 /* The picture's width by its height, and either the angle from left to right or the width of a parallel projection. */
-typedef struct View {
+typedef struct Lens {
     double aspect, angle, width;
-} View;
+} Lens;
 
-static View view_of(const Import *import, int index)
+static Lens lens_of(const Import *import, int index)
 {
-    View view;
+    Lens lens;
     if (import->is_gltf) {
         const GltfCamera *gltf = &import->gltf.cameras[index];
-        view.width = gltf->width;
-        view.aspect = gltf->width > 0 && gltf->height > 0 ? gltf->width / gltf->height : gltf->aspect;
-        view.angle = 2 * atan(tan(gltf->angle / 2) * (view.aspect > 0 ? view.aspect : 4.0 / 3));
+        lens.width = gltf->width;
+        lens.aspect = gltf->width > 0 && gltf->height > 0 ? gltf->width / gltf->height : gltf->aspect;
+        lens.angle = 2 * atan(tan(gltf->angle / 2) * (lens.aspect > 0 ? lens.aspect : 4.0 / 3));
     } else {
         const struct aiCamera *camera = import->scene->mCameras[index];
-        view.width = 2 * (double)camera->mOrthographicWidth;
-        view.aspect = (double)camera->mAspect;
-        view.angle = (double)camera->mHorizontalFOV;
+        lens.width = 2 * (double)camera->mOrthographicWidth;
+        lens.aspect = (double)camera->mAspect;
+        lens.angle = (double)camera->mHorizontalFOV;
     }
-    if (!(view.aspect > 0.01 && view.aspect < 100))
-        view.aspect = 4.0 / 3;
-    if (!(view.angle > 0.001 && view.angle < 3.1))
-        view.angle = PI / 3;
-    return view;
+    if (!(lens.aspect > 0.01 && lens.aspect < 100))
+        lens.aspect = 4.0 / 3;
+    if (!(lens.angle > 0.001 && lens.angle < 3.1))
+        lens.angle = PI / 3;
+    return lens;
 }
 
 /* To the right and up, of length 1. */
@@ -82,16 +83,16 @@ static void frame(const double ahead[3], const double up[3], double side[3], dou
 }
 
 /* A shifted lens: direction, right and up as vectors, for look_at would turn the direction back. */
-static void print_shifted(FILE *out, const View *view, const double at[3], const double to[3], const double up[3],
+static void print_shifted(FILE *out, const Lens *lens, const double at[3], const double to[3], const double up[3],
                           const double shift[2])
 {
-    const double distance = view->aspect / (2 * tan(view->angle / 2));
+    const double distance = lens->aspect / (2 * tan(lens->angle / 2));
     double ahead[3], side[3], above[3];
     for (int k = 0; k < 3; k++)
         ahead[k] = to[k] - at[k];
     frame(ahead, up, side, above);
     for (int k = 0; k < 3; k++) {
-        side[k] *= view->aspect;
+        side[k] *= lens->aspect;
         ahead[k] = ahead[k] * distance + shift[0] * side[k] + shift[1] * above[k];
     }
     vector_print(out, "  direction ", ahead, "\n");
@@ -100,7 +101,7 @@ static void print_shifted(FILE *out, const View *view, const double at[3], const
 }
 
 /* A shifted parallel projection is one that is moved. */
-static void move_orthographic(const View *view, double at[3], double to[3], const double up[3], const double shift[2],
+static void move_orthographic(const Lens *lens, double at[3], double to[3], const double up[3], const double shift[2],
                               double scale)
 {
     double ahead[3], side[3], above[3];
@@ -108,7 +109,7 @@ static void move_orthographic(const View *view, double at[3], double to[3], cons
         ahead[k] = to[k] - at[k];
     frame(ahead, up, side, above);
     for (int k = 0; k < 3; k++) {
-        const double by = view->width * scale * (shift[0] * side[k] + shift[1] * above[k] / view->aspect);
+        const double by = lens->width * scale * (shift[0] * side[k] + shift[1] * above[k] / lens->aspect);
         at[k] += by, to[k] += by;
     }
 }
@@ -129,32 +130,49 @@ static int write_camera(const Import *import, int index, const char *name, FILE 
 {
     static const GltfCamera plain;
     const GltfCamera *gltf = import->is_gltf ? &import->gltf.cameras[index] : &plain;
-    const View view = view_of(import, index);
-    const int is_shifted = view.width == 0 && (gltf->shift[0] != 0 || gltf->shift[1] != 0);
+    const Lens lens = lens_of(import, index);
+    const int is_shifted = lens.width == 0 && (gltf->shift[0] != 0 || gltf->shift[1] != 0);
     double at[3], to[3], up[3];
     if (!place(import, index, at, to, up))
         return 0;
-    if (view.width > 0)
-        move_orthographic(&view, at, to, up, gltf->shift, import->options->scale);
+    if (lens.width > 0)
+        move_orthographic(&lens, at, to, up, gltf->shift, import->options->scale);
     fprintf(out, "#declare %s = camera {\n", name);
-    if (view.width > 0)
+    if (lens.width > 0)
         fprintf(out, "  orthographic\n");
     vector_print(out, "  location ", at, "\n");
     if (is_shifted)
-        print_shifted(out, &view, at, to, up, gltf->shift);
+        print_shifted(out, &lens, at, to, up, gltf->shift);
     else
         vector_print(out, "  sky ", up, "\n");
-    if (view.width > 0) {
-        const double width = view.width * import->options->scale;
-        fprintf(out, "  right x * %.7g\n  up y * %.7g\n", width, width / view.aspect);
+    if (lens.width > 0) {
+        const double width = lens.width * import->options->scale;
+        fprintf(out, "  right x * %.7g\n  up y * %.7g\n", width, width / lens.aspect);
     } else if (!is_shifted)
-        fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", view.aspect, view.angle * 180 / PI);
+        fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", lens.aspect, lens.angle * 180 / PI);
     if (!is_shifted)
         vector_print(out, "  look_at ", to, "\n");
     if (gltf->lens_radius > 0 && gltf->focus_distance > 0)
         print_lens(import, out, gltf, at, to);
     fprintf(out, "}\n");
     return 1;
+}
+
+/* Where a camera is that the scene has, in the Space's lengths. */
+static View view_of(const Import *import, int index)
+{
+    const Lens lens = lens_of(import, index);
+    const double scale = import->sense->scale;
+    double at[3], to[3], up[3], ahead[3], side[3];
+    View view = {.angle = lens.angle * 180 / PI, .aspect = lens.aspect};
+    place(import, index, at, to, up);
+    for (int k = 0; k < 3; k++) {
+        ahead[k] = to[k] - at[k];
+        view.eye[k] = at[k] / scale, view.ahead[k] = ahead[k];
+    }
+    frame(ahead, up, side, view.up);
+    view.width = lens.width * import->options->scale / scale;
+    return view;
 }
 
 typedef struct Cameras {
@@ -213,12 +231,14 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
         return code;
     if (is_framed || chosen < 0)
         return framing_write(import, out, err);
-    place(import, chosen, import->eye, (double[3]){0}, (double[3]){0});
-    fprintf(out, "camera { %s }\n\n", cameras->names[chosen]);
+    place(import, chosen, import->eye, import->target, (double[3]){0});
+    import->angle = view_of(import, chosen).angle * 180 / PI;
+    const char *used = cameras->names[chosen];
     if (cameras->count > 1)
         import_tell(import, IMPORT_INFO, "camera %d of %d is used, %s; --camera takes another one", chosen + 1,
-                    cameras->count, cameras->names[chosen]);
-    return RETEX_OK;
+                    cameras->count, used);
+    const View view = import->sense && import->sense->space ? view_of(import, chosen) : (View){.angle = 0};
+    return framing_write_own(import, used, view.angle > 0 ? &view : NULL, out, err);
 }
 
 int cameras_write(Import *import, FILE *out, RetexError *err)

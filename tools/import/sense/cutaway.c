@@ -11,6 +11,7 @@
 #include "import/sense/sense.h"
 #include "import/space/room.h"
 #include "import/space/space.h"
+#include "import/space/views.h"
 
 typedef struct Range {
     float from, to; /* from >= to: none */
@@ -299,7 +300,7 @@ static void place(const Import *import, const Air *air, Cutaway *cutaway, double
 {
     const double side[3] = {0.4, 0.75, -0.75}, scale = import->sense->scale;
     cutaway->angle = 40;
-    framing_fit(air->low, air->high, side, cutaway->angle, eye, cutaway->target);
+    view_fit(air->low, air->high, side, cutaway->angle, eye, cutaway->target);
     for (int k = 0; k < 3; k++) {
         cutaway->eye[k] = eye[k] * scale;
         cutaway->target[k] *= scale;

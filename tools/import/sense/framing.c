@@ -1,12 +1,13 @@
-/* Views of a scene that are none of the model's cameras: from inside of a room, from outside, from where one says. */
+/* Views of a scene that are none of the model's cameras: the best of all, or from where one says; and others to choose
+ * from. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "import/base/tell.h"
 #include "import/sense/sense.h"
-#include "import/space/room.h"
 #include "import/space/space.h"
+#include "import/space/views.h"
 
 typedef struct Framing {
     double at[3], to[3], angle;
@@ -60,164 +61,87 @@ int framing_is_asked(const Import *import, int *is_asked, RetexError *err)
     return RETEX_OK;
 }
 
-/* ---- from outside ---- */
+/* ---- views ---- */
 
-/* How far a ray goes through the bounds, in and out. Returns 0 where it misses them. */
-static int cross_bounds(const double low[3], const double high[3], const double from[3], const double direction[3],
-                        double range[2])
+/* In the scene's lengths. From outside one looks at the middle of the model. */
+static Framing framing_of(const Import *import, const ViewChoice *choice)
 {
-    range[0] = 0, range[1] = INFINITY;
+    const Room *room = &import->sense->room;
+    const View *view = &choice->view;
+    const double scale = import->sense->scale;
+    double low[3], high[3];
+    Framing framing = {.angle = view->angle};
+    space_bounds(room->space, low, high);
     for (int k = 0; k < 3; k++) {
-        if (fabs(direction[k]) < 1e-9) {
-            if (from[k] < low[k] || from[k] > high[k])
-                return 0;
-            continue;
-        }
-        const double a = (low[k] - from[k]) / direction[k], b = (high[k] - from[k]) / direction[k];
-        range[0] = fmax(range[0], fmin(a, b)), range[1] = fmin(range[1], fmax(a, b));
+        const double ahead = view->eye[k] + 2 * room->metre * view->ahead[k];
+        framing.at[k] = view->eye[k] * scale;
+        framing.to[k] = (choice->from == VIEWS_INSIDE ? ahead : low[k] + (high[k] - low[k]) / 2) * scale;
     }
-    return range[1] > range[0];
+    return framing;
 }
 
-/* How deep one sees into the model from a side, as a share of its bounds. */
-static double depth_from(const Space *space, const double side[3])
+static View view_of(const Import *import, const Framing *framing)
 {
-    enum { RAYS = 28 };
-    double low[3], high[3], middle[3], radius = 0, right[3] = {-side[2], 0, side[0]}, up[3], sum = 0;
-    int count = 0;
-    space_bounds(space, low, high);
+    double eye[3], ahead[3];
     for (int k = 0; k < 3; k++) {
-        middle[k] = (low[k] + high[k]) / 2;
-        radius += pow((high[k] - low[k]) / 2, 2);
+        eye[k] = framing->at[k] / import->sense->scale;
+        ahead[k] = framing->to[k] - framing->at[k];
     }
-    radius = sqrt(radius);
-    const double wide = hypot(right[0], right[2]);
-    right[0] /= wide, right[2] /= wide;
-    for (int k = 0; k < 3; k++)
-        up[k] = side[(k + 1) % 3] * right[(k + 2) % 3] - side[(k + 2) % 3] * right[(k + 1) % 3];
-    for (int i = 0; i < RAYS * RAYS; i++) {
-        const double u = (2 * (i % RAYS + 0.5) / RAYS - 1) * radius, v = (2 * (i / RAYS + 0.5) / RAYS - 1) * radius;
-        const double direction[3] = {-side[0], -side[1], -side[2]};
-        double from[3], range[2];
-        SpaceHit hit;
-        for (int k = 0; k < 3; k++)
-            from[k] = middle[k] + u * right[k] + v * up[k] + 2 * radius * side[k];
-        if (!cross_bounds(low, high, from, direction, range) || !space_ray(space, from, direction, 0, INFINITY, &hit))
-            continue;
-        sum += fmin(fmax((hit.t - range[0]) / (range[1] - range[0]), 0), 1), count++;
+    return view_level(eye, ahead, framing->angle);
+}
+
+/* What a view shows, for people. */
+static void describe(const ViewChoice *choice, char *text, size_t size)
+{
+    const Content *c = &choice->content;
+    snprintf(text, size, "from %s%s; %.0f %% of it is furniture, %.0f %% floor, %d object%s seen",
+             choice->from == VIEWS_INSIDE ? "inside" : "outside",
+             choice->from == VIEWS_OUTSIDE && c->behind > 0.02 ? ", on the side that shows most" : "",
+             100 * c->furniture, 100 * c->floor, c->things, c->things == 1 ? " is" : "s are");
+}
+
+static void print_view(FILE *out, const char *before, const Framing *f)
+{
+    fprintf(out, "%scamera {\n", before);
+    vector_print(out, "  location ", f->at, "\n");
+    fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", f->angle);
+    vector_print(out, "  look_at ", f->to, "\n");
+    fprintf(out, "}\n");
+}
+
+/* The views from the second on, to choose from; and a line that tells them. */
+static int declare_others(Import *import, const Views *views, FILE *out, RetexError *err)
+{
+    char told[VIEWS_MOST * NAME_SIZE] = "";
+    for (int i = 1; i < views->count; i++) {
+        const Framing f = framing_of(import, &views->list[i]);
+        char name[NAME_SIZE], shown[160], before[NAME_SIZE + 20];
+        snprintf(name, sizeof name, "View_%d", i + 1);
+        if (!names_make(&import->names, name, "View", name))
+            return retex_fail(err, RETEX_ENOMEM, "out of memory");
+        describe(&views->list[i], shown, sizeof shown);
+        fprintf(out, "// the view is %s\n", shown);
+        snprintf(before, sizeof before, "#declare %s = ", name);
+        print_view(out, before, &f);
+        const size_t length = strlen(told);
+        snprintf(told + length, sizeof told - length, "%s%s %s", i == 1 ? "" : ", ", name,
+                 views->list[i].from == VIEWS_INSIDE ? "from inside" : "from outside");
     }
-    return count ? sum / count : 0;
+    if (views->count > 1)
+        import_tell(import, IMPORT_INFO, "other views: %s; --camera of retex-render takes one", told);
+    return RETEX_OK;
 }
 
-/* From the right in front and above; from another side where one sees much more: into a room with an open side. */
-static int choose_side(const Import *import, double side[3])
-{
-    enum { SIDES = 12 };
-    const double usual[3] = {0.45, 0.35, -0.82}, level = hypot(usual[0], usual[2]);
-    memcpy(side, usual, sizeof usual);
-    if (!import->sense || !import->sense->space)
-        return 0;
-    const double first = depth_from(import->sense->space, usual);
-    const int has_walls = import->sense->room.is_found && import->sense->room.enclosed > 0.6;
-    double best = first * (has_walls ? 1.08 : 1.3) + 0.02;
-    int is_other = 0;
-    for (int i = 1; i < SIDES; i++) {
-        const double a = atan2(usual[2], usual[0]) + 2 * PI * i / SIDES;
-        const double other[3] = {level * cos(a), usual[1], level * sin(a)};
-        const double depth = depth_from(import->sense->space, other);
-        if (depth <= best)
-            continue;
-        best = depth, is_other = 1;
-        memcpy(side, other, sizeof other);
-    }
-    return is_other;
-}
-
-/* How far from its middle the corners of a box are all in the picture, with a margin. back: of unit length. */
-static double distance_to_fit(const double low[3], const double high[3], const double back[3], double angle)
-{
-    const double across = tan(angle / 2 * PI / 180) * 0.9, along = across * 3 / 4, level = hypot(back[0], back[2]);
-    const double right[3] = {-back[2] / level, 0, back[0] / level};
-    const double up[3] = {-back[1] * right[2], back[0] * right[2] - back[2] * right[0], back[1] * right[0]};
-    double distance = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        double x = 0, y = 0, z = 0;
-        for (int k = 0; k < 3; k++) {
-            const double half = (high[k] - low[k]) / 2, c = corner >> k & 1 ? half : -half;
-            x += c * right[k], y += c * up[k], z += c * back[k];
-        }
-        distance = fmax(distance, z + fmax(fabs(x) / across, fabs(y) / along));
-    }
-    return distance;
-}
-
-void framing_fit(const double low[3], const double high[3], const double side[3], double angle, double eye[3],
-                 double target[3])
-{
-    const double length = sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
-    const double back[3] = {side[0] / length, side[1] / length, side[2] / length};
-    const double distance = distance_to_fit(low, high, back, angle);
-    for (int k = 0; k < 3; k++) {
-        target[k] = low[k] + (high[k] - low[k]) / 2;
-        eye[k] = target[k] + back[k] * distance;
-    }
-}
-
-/* So that the scene fills the picture. Returns 1 if it is not the usual side. */
-static int frame_outside(const Import *import, Framing *framing)
-{
-    double side[3];
-    const int is_other = choose_side(import, side);
-    framing->angle = 40;
-    framing_fit(import->low, import->high, side, framing->angle, framing->at, framing->to);
-    return is_other;
-}
-
-static void frame_cutaway(const Cutaway *cutaway, Framing *framing)
-{
-    memcpy(framing->at, cutaway->eye, sizeof framing->at);
-    memcpy(framing->to, cutaway->target, sizeof framing->to);
-    framing->angle = cutaway->angle;
-}
-
-/* ---- from inside ---- */
-
-/* Returns 0 where there is no place for it. */
-static int frame_inside(const Import *import, Framing *framing, RoomView *view, RetexError *err)
-{
-    const Sense *sense = import->sense;
-    if (!sense || !sense->space || sense->room.is_solid || !room_view(&sense->room, view, err))
-        return 0;
-    for (int k = 0; k < 3; k++) {
-        framing->at[k] = view->eye[k] * sense->scale;
-        framing->to[k] = view->target[k] * sense->scale;
-    }
-    framing->angle = view->angle;
-    return 1;
-}
+/* ---- the scene's camera ---- */
 
 /* What was chosen, and why. */
-static void tell(const Import *import, const Framing *f, const char *where, const char *more)
+static void tell(const Import *import, const Framing *f, const char *what, const char *more)
 {
     const char *asked = import->options->camera;
     const int is_asked = asked && strcmp(asked, "auto") != 0;
-    import_tell(import, IMPORT_INFO, "%s%s, from %.4g,%.4g,%.4g to %.4g,%.4g,%.4g, %g degrees%s",
-                is_asked ? "" : "no camera in the model: ", where, f->at[0], f->at[1], f->at[2], f->to[0], f->to[1],
+    import_tell(import, IMPORT_INFO, "%sthe view is %s, from %.4g,%.4g,%.4g to %.4g,%.4g,%.4g, %g degrees%s",
+                is_asked ? "" : "no camera in the model: ", what, f->at[0], f->at[1], f->at[2], f->to[0], f->to[1],
                 f->to[2], f->angle, more);
-}
-
-static void tell_inside(const Import *import, const Framing *f, const RoomView *view)
-{
-    const Room *room = &import->sense->room;
-    char where[120], more[120];
-    if (room->is_closed)
-        snprintf(where, sizeof where, "walls are on %.0f %% of all sides: the view is from inside",
-                 100 * room->enclosed);
-    else
-        snprintf(where, sizeof where, "the view is from inside");
-    snprintf(more, sizeof more, "; %.3g above the floor; %.0f %% of it is furniture, %.0f %% floor",
-             room->eye * import->sense->scale, 100 * view->furniture, 100 * view->floor);
-    tell(import, f, where, more);
 }
 
 static void tell_cutaway(const Import *import, const Framing *f)
@@ -225,57 +149,113 @@ static void tell_cutaway(const Import *import, const Framing *f)
     char more[120];
     snprintf(more, sizeof more, "; %ld triangle%s before the rooms %s left out", import->cutaway->count,
              import->cutaway->count == 1 ? "" : "s", import->cutaway->count == 1 ? "is" : "are");
-    tell(import, f, "the view is into the rooms from above", more);
+    tell(import, f, "into the rooms from above", more);
 }
 
-static void tell_outside(const Import *import, const Framing *f, int is_other)
+static Framing frame_cutaway(const Cutaway *cutaway)
 {
-    tell(import, f, is_other ? "the view is from outside, on the side that is open" : "the view is from outside", "");
+    Framing framing = {.angle = cutaway->angle};
+    memcpy(framing.at, cutaway->eye, sizeof framing.at);
+    memcpy(framing.to, cutaway->target, sizeof framing.to);
+    return framing;
 }
 
-/* ---- */
-
-static int frame(const Import *import, Framing *framing, RetexError *err)
+/* From the right in front and above, without having looked. */
+static Framing frame_usual(const Import *import)
 {
-    const Room *room = import->sense ? &import->sense->room : NULL;
-    const char *asked = import->options->camera;
-    const int is_asked = sense_camera_is(import, "inside");
-    RetexError why = {0};
-    RoomView view;
-    if (asked && strchr(asked, ':') && take_place(asked, framing))
-        return RETEX_OK;
-    if (import->cutaway) {
-        frame_cutaway(import->cutaway, framing);
-        tell_cutaway(import, framing);
-        return RETEX_OK;
-    }
-    if (room && (is_asked || (room->is_closed && !sense_camera_is(import, "outside"))) &&
-        frame_inside(import, framing, &view, &why)) {
-        tell_inside(import, framing, &view);
-        return RETEX_OK;
-    }
-    if (why.code)
-        return retex_fail(err, why.code, "%s", why.message);
-    if (is_asked)
+    static const double side[3] = {0.45, 0.35, -0.82};
+    Framing framing = {.angle = 40};
+    view_fit(import->low, import->high, side, framing.angle, framing.at, framing.to);
+    return framing;
+}
+
+/* The scene's camera, which is none of the model's. */
+static void use(Import *import, const Framing *framing, FILE *out)
+{
+    memcpy(import->eye, framing->at, sizeof import->eye);
+    memcpy(import->target, framing->to, sizeof import->target);
+    import->angle = framing->angle;
+    import_tell(import, IMPORT_FRAMED, "%s", "");
+    print_view(out, "", framing);
+}
+
+static int write_best(Import *import, FILE *out, RetexError *err)
+{
+    const Sense *sense = import->sense;
+    const ViewsFrom from = sense_camera_is(import, "inside")    ? VIEWS_INSIDE
+                           : sense_camera_is(import, "outside") ? VIEWS_OUTSIDE
+                                                                : VIEWS_EITHER;
+    Views views = {.count = 0};
+    int code = sense && sense->space ? views_find(&sense->room, sense->materials, from, NULL, &views, err) : RETEX_OK;
+    if (code)
+        return code;
+    if (!views.count && from == VIEWS_INSIDE)
         return retex_fail(err, RETEX_ENOTFOUND, "--camera inside: %s: no place above a floor is free",
                           import->options->model);
-    const int is_other = frame_outside(import, framing);
-    tell_outside(import, framing, is_other);
-    return RETEX_OK;
+    const Framing framing = views.count ? framing_of(import, &views.list[0]) : frame_usual(import);
+    char shown[160] = "from outside";
+    if (views.count)
+        describe(&views.list[0], shown, sizeof shown);
+    tell(import, &framing, shown, "");
+    code = declare_others(import, &views, out, err);
+    use(import, &framing, out);
+    return code;
+}
+
+static int write_place(Import *import, const Framing *framing, FILE *out, RetexError *err)
+{
+    const Sense *sense = import->sense;
+    Views views = {.count = 0};
+    int code = RETEX_OK;
+    if (sense && sense->space) {
+        const View given = view_of(import, framing);
+        code = views_find(&sense->room, sense->materials, VIEWS_EITHER, &given, &views, err);
+    }
+    if (!code)
+        code = declare_others(import, &views, out, err);
+    use(import, framing, out);
+    return code;
+}
+
+/* Within a wall, or before one; or where there is nothing at all. */
+static int sees_nothing(const Content *content)
+{
+    return content->nothing > 0.995 || (content->near > 0.9 && content->things < 3);
+}
+
+int framing_write_own(Import *import, const char *name, const View *view, FILE *out, RetexError *err)
+{
+    const int is_asked = import->options->camera && !sense_camera_is(import, "auto");
+    Views views = {.count = 0};
+    int code = RETEX_OK;
+    if (view)
+        code = views_find(&import->sense->room, import->sense->materials, VIEWS_EITHER, view, &views, err);
+    if (!code && views.count > 1 && !is_asked && sees_nothing(&views.list[0].content)) {
+        import_tell(import, IMPORT_INFO, "the camera %s sees nothing, or a wall before it; --camera %s takes it all the same",
+                    name, name);
+        return write_best(import, out, err);
+    }
+    if (!code && views.count)
+        import_tell(import, IMPORT_DETAIL, "%d of %d other views show more than %s", views.better, views.candidates, name);
+    if (!code)
+        code = declare_others(import, &views, out, err);
+    fprintf(out, "camera { %s }\n\n", name);
+    return code;
 }
 
 int framing_write(Import *import, FILE *out, RetexError *err)
 {
+    const char *asked = import->options->camera;
     Framing framing;
-    const int code = frame(import, &framing, err);
-    if (code)
-        return code;
-    memcpy(import->eye, framing.at, sizeof import->eye);
-    import_tell(import, IMPORT_FRAMED, "%s", "");
-    fprintf(out, "camera {\n");
-    vector_print(out, "  location ", framing.at, "\n");
-    fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", framing.angle);
-    vector_print(out, "  look_at ", framing.to, "\n");
-    fprintf(out, "}\n\n");
-    return RETEX_OK;
+    int code = RETEX_OK;
+    if (asked && strchr(asked, ':') && take_place(asked, &framing))
+        code = write_place(import, &framing, out, err);
+    else if (import->cutaway) {
+        framing = frame_cutaway(import->cutaway);
+        use(import, &framing, out);
+        tell_cutaway(import, &framing);
+    } else
+        code = write_best(import, out, err);
+    fprintf(out, "\n");
+    return code;
 }

@@ -51,16 +51,6 @@ int sense_camera_is(const Import *import, const char *word)
     return import->options->camera && strcmp(import->options->camera, word) == 0;
 }
 
-/* Whether anything is to be found out that the model or the options do not say. */
-static int is_needed(const Import *import)
-{
-    const ImportOptions *options = import->options;
-    const int cameras = import->is_gltf ? import->gltf.ncameras : (int)import->scene->mNumCameras;
-    const int lights = import->is_gltf ? import->gltf.nlights : (int)import->scene->mNumLights;
-    const int is_asked = sense_camera_is(import, "inside") || sense_camera_is(import, "cutaway");
-    return !cameras || !lights || is_asked || !options->unit;
-}
-
 /* z is up: the world turns. Lights and cameras are placed after this, but for glTF, whose axes are known. */
 static int find_up(Import *import, Sense *sense, RetexError *err)
 {
@@ -83,20 +73,20 @@ static int find_unit(Import *import, Sense *sense, int is_said, RetexError *err)
 {
     Room *room = &sense->room;
     const double height = room->height;
-    if (!room->is_closed || import->options->unit || import->options->is_scaled)
+    const Unit *unit = unit_of(height);
+    const int may_be_feet = height > 6.5 && height < 14;
+    if (import->options->unit || import->options->is_scaled)
+        return RETEX_OK;
+    /* Cupboards have compartments too, and the hulls of sofas are furnished with cushions. */
+    room->is_furniture = !unit && !is_said && !(may_be_feet && room->enclosed > 0.9 && room->is_furnished);
+    room->is_closed &= !room->is_furniture;
+    if (!room->is_closed)
         return RETEX_OK;
     if (is_said && height <= 20 && height >= 0.5) {
         if (room->is_doubtful)
             import_tell(import, IMPORT_INFO,
                         "the room is %.3g m high and so is its furniture: lengths stay, --scale %.2g makes it 2.6 m",
                         height, 2.6 / height);
-        return RETEX_OK;
-    }
-    const Unit *unit = unit_of(height);
-    const int may_be_feet = height > 6.5 && height < 14;
-    /* Cupboards have compartments too, and the hulls of sofas are furnished with cushions. */
-    if (!unit && !is_said && !(may_be_feet && room->enclosed > 0.9 && room->is_furnished)) {
-        room->is_closed = 0;
         return RETEX_OK;
     }
     if (!unit) {
@@ -119,8 +109,6 @@ int sense_find(Import *import, RetexError *err)
 {
     RetexError why = {0};
     const ImportOptions *options = import->options;
-    if (!is_needed(import))
-        return RETEX_OK;
     Sense *sense = import->sense = calloc(1, sizeof *sense);
     if (!sense)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");

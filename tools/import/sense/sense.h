@@ -3,7 +3,7 @@
 #define RETEX_IMPORT_SENSE_H
 
 #include "import/base/model.h"
-#include "import/space/room.h"
+#include "import/space/views.h"
 
 /* All that is placed, and the room that it makes. */
 struct Sense {
@@ -29,14 +29,12 @@ int sense_is_z_up(const Space *space);
 int doubles_drop(Import *import, RetexError *err);
 int doubles_find_objects(Import *import, RetexError *err);
 
-/* Where a camera sees all of a box, from a side: a vector from its middle, of any length. angle: degrees, from left to
- * right. */
-void framing_fit(const double low[3], const double high[3], const double side[3], double angle, double eye[3],
-                 double target[3]);
 /* Whether --camera asks for a view that is none of the model's: a place, or the words inside and outside. */
 int framing_is_asked(const Import *import, int *is_asked, RetexError *err);
 /* A view of the scene: what is asked for, else from inside of a room and from outside of what is none. */
 int framing_write(Import *import, FILE *out, RetexError *err);
+/* The model's camera of that name, unless it sees nothing; and views to choose from. view: where it is, or NULL. */
+int framing_write_own(Import *import, const char *name, const View *view, FILE *out, RetexError *err);
 
 /* Place the camera, into import->cutaway, and drop what stands before the rooms, where it is asked for. */
 int cutaway_find(Import *import, RetexError *err);

@@ -449,15 +449,25 @@ static double furniture_height(const Room *room, float *tops)
     return (double)tops[count / 2];
 }
 
+/* Whether what one took for a room is a storey of a small model: much lower than a room, and much wider than furniture
+ * is by its height. */
+static int is_flat(const Room *room)
+{
+    double area = 0;
+    for (int i = 0; i < room->nx * room->nz; i++)
+        area += room->cells[i].is_floor ? room->cell * room->cell : 0;
+    return room->height < 1.2 * room->metre && area > 12 * room->height * room->height;
+}
+
 /* A high room is a hall, or one whose lengths are not in the unit that is said: then its furniture is too high. */
 static int check_metre(Room *room, int is_sure, RetexError *err)
 {
-    if (is_sure || !(room->height > 4.2 * room->metre))
+    if (is_sure || !(room->height > 3.4 * room->metre || is_flat(room)))
         return RETEX_OK;
     float *tops = malloc((size_t)(room->nx * room->nz) * sizeof *tops);
     if (!tops)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    if (furniture_height(room, tops) > 1.3 * room->metre) {
+    if (room->height < room->metre * 1.2 || furniture_height(room, tops) > 1.3 * room->metre) {
         room->metre = room->height / 2.6;
         room->is_doubtful = 1;
     }
@@ -480,6 +490,7 @@ static int find_room(Room *room, double metre, int is_sure, RetexError *err)
     code = check_metre(room, is_sure, err);
     if (code)
         return code;
+    room->is_said = metre > 0;
     room->eye = height_in(room->metre, room->height);
     measure_cells(room);
     return find_region(room, err);

@@ -30,7 +30,9 @@ typedef struct Room {
     double clearance;     /* most of a place in it */
     int is_furnished;     /* things stand in it */
     int is_solid;         /* the region is the inside of a solid */
-    int is_doubtful;      /* metre is not what was said: the furniture is too high for it */
+    int is_said;          /* the length of a metre was said */
+    int is_doubtful;      /* metre is not what was said: the furniture is too high for it, or the room too low */
+    int is_furniture;     /* its free space is as high as no room is, in any unit that it may be in */
     int is_found;         /* there is a floor with free space */
     int is_closed;        /* one can say that it is a room: auto goes inside */
 } Room;
@@ -47,17 +49,5 @@ int room_cell_at(const Room *room, double x, double z);
 /* Of all directions from places in the room, the share in which light comes from outside; what passes[tag] is of lets
  * it through. */
 double room_openness(const Room *room, const unsigned char *passes);
-
-typedef struct RoomView {
-    double eye[3], target[3];
-    double angle;     /* degrees, from left to right */
-    double furniture; /* share of the picture */
-    double floor;
-    double depth; /* mean distance */
-    int things;   /* how many different tags are seen */
-} RoomView;
-
-/* The best place to look from. Returns 0 if there is none. Two calls give the same. */
-int room_view(const Room *room, RoomView *view, RetexError *err);
 
 #endif
