@@ -164,6 +164,8 @@ static const CliOption options[] = {
     {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0, CLI_LIST(Arguments, shown)},
     {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0,
      CLI_INTO(Arguments, list_finishes)},
+    {"list-cameras", 0, NULL, "print the cameras that --camera can name, and where they are, and stop", 0,
+     CLI_INTO(Arguments, list_cameras)},
     {"light", 0, "NAME=VALUE",
      "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
      "retex-combine; repeatable",
@@ -315,8 +317,9 @@ static void check_denoise(const Arguments *a)
     if (a->no_denoise_data)
         cli_die(a->cli, "--denoise needs the data that --no-denoise-data omits");
     if (answers(a) || a->variants || a->control)
-        cli_die(a->cli, "--denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, "
-                        "--trace-pixel, --variants or --control");
+        cli_die(a->cli,
+                "--denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "
+                "--trace-pixel, --variants or --control");
     if (a->render.control_data)
         cli_die(a->cli, "--denoise and --control-data exclude each other");
     if (a->render.spp < 2)
@@ -332,8 +335,9 @@ static void check_lamps(const Arguments *a)
         cli_die(a->cli, "--layout paper keeps no lamps apart");
     if (lamps && (a->render.control_data || a->control))
         cli_die(a->cli, "lamps cannot be combined with --control or --control-data");
-    if (a->list + a->list_lamps + a->list_finishes + a->tracing > 1)
-        cli_die(a->cli, "--list-targets, --list-lamps, --list-finishes and --trace-pixel exclude each other");
+    if (a->list + a->list_lamps + a->list_finishes + a->list_cameras + a->tracing > 1)
+        cli_die(a->cli,
+                "--list-targets, --list-lamps, --list-finishes, --list-cameras and --trace-pixel exclude each other");
 }
 
 /* What is no matter of pictures alone. */
@@ -343,6 +347,7 @@ static void check_live(Arguments *a)
     const char *other = a->list            ? "list-targets"
                         : a->list_lamps    ? "list-lamps"
                         : a->list_finishes ? "list-finishes"
+                        : a->list_cameras  ? "list-cameras"
                         : a->tracing       ? "trace-pixel"
                         : a->variants      ? "variants"
                         : a->control       ? "control"
@@ -403,9 +408,9 @@ static void check_pieces(const Arguments *a)
     if (!option)
         return;
     if (answers(a) || a->variants || a->control || r->control_data)
-        cli_die(
-            a->cli, "--%s cannot be combined with %s", option,
-            "--list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants, --control or --control-data");
+        cli_die(a->cli, "--%s cannot be combined with %s", option,
+                "--list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants, --control "
+                "or --control-data");
     if (a->nmerged && (r->resume || r->nshards))
         cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
@@ -424,8 +429,9 @@ static void check_mattes(Arguments *a)
     if (!cli_ends_with(a->mattes, ".exr"))
         cli_die(a->cli, "--mattes writes OpenEXR: expected a name that ends in .exr, not `%s`", a->mattes);
     if (answers(a) || a->variants || a->control)
-        cli_die(a->cli, "--mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, "
-                        "--trace-pixel, --variants or --control");
+        cli_die(a->cli,
+                "--mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "
+                "--trace-pixel, --variants or --control");
     if (a->render.nshards)
         cli_die(a->cli, "--shard writes rows only: give --mattes with --merge");
     a->matte_ranks = a->matte_ranks ? a->matte_ranks : MATTE_RANKS;
@@ -487,10 +493,9 @@ void parse_arguments(Arguments *a)
     if (a->variants && cli->output)
         cli_die(cli, "the table of --variants names the outputs: no -o");
     if (a->variants && (answers(a) || a->render.aovs || a->stats))
-        cli_die(
-            cli,
-            "--variants makes pictures only: no --list-targets, --list-lamps, --list-finishes, --trace-pixel, --aov or "
-            "--stats");
+        cli_die(cli, "--variants makes pictures only: no --list-targets, --list-lamps, --list-finishes, "
+                     "--list-cameras, --trace-pixel, --aov or "
+                     "--stats");
     if (a->control && (!a->nreplacements || a->variants))
         cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
@@ -505,7 +510,8 @@ void parse_arguments(Arguments *a)
     check_pieces(a);
     check_mattes(a);
     if (a->aov_dir && (answers(a) || a->variants || a->control))
-        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, "
+        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "
+                     "--trace-pixel, "
                      "--variants or "
                      "--control");
     if (a->aov_dir && !a->render.aovs)
@@ -513,6 +519,7 @@ void parse_arguments(Arguments *a)
     const char *answer = a->list            ? "list-targets"
                          : a->list_lamps    ? "list-lamps"
                          : a->list_finishes ? "list-finishes"
+                         : a->list_cameras  ? "list-cameras"
                          : a->tracing       ? "trace-pixel"
                          : a->live          ? "live"
                                             : NULL;

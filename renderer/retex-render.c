@@ -8,6 +8,7 @@
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
 #include "retex-render.h"
+#include "camera/view.h"
 #include "common/set_kind.h"
 #include "common/watchdog.h"
 #include "render/mattes.h"
@@ -214,8 +215,8 @@ static int check_files(Arguments *a)
 }
 
 /* What rendering leaves: a set, or a picture as one. */
-static int finish_set(Arguments *a, const Scene *scene, RetexSet *set, const RenderStats *stats,
-                      double parse_seconds, RetexError *err)
+static int finish_set(Arguments *a, const Scene *scene, RetexSet *set, const RenderStats *stats, double parse_seconds,
+                      RetexError *err)
 {
     int code = round_set(a, set, a->output, err);
     if (!code && a->denoise)
@@ -261,7 +262,7 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
         code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
     if (code)
         return code;
-    if (!a->list && !a->list_lamps && !a->list_finishes)
+    if (!a->list && !a->list_lamps && !a->list_finishes && !a->list_cameras)
         job_warn_dark(*scene, &a->sdl);
     check_targets(a, *scene);
     return !a->list || lists_pixels(a) ? job_check_size(*scene, &a->render, err) : RETEX_OK;
@@ -277,6 +278,17 @@ static void list_finishes(const Scene *scene)
     printf("original\tas the scene has it\n");
 }
 
+/* As --camera takes them: with a point that the middle of the picture shows. */
+static void list_cameras(const Scene *scene)
+{
+    for (int k = 0; k < scene->ncameras; k++) {
+        const Camera *camera = &scene->cameras[k].camera;
+        const Vec3 eye = camera->location, at = vec_add(eye, vec_normalize(camera->direction));
+        printf("%s\t%.7g,%.7g,%.7g:%.7g,%.7g,%.7g:%.7g\n", scene->cameras[k].name, eye.x, eye.y, eye.z, at.x, at.y,
+               at.z, camera_angle(camera));
+    }
+}
+
 /* What is asked for of a scene. *status: the answer, where there is no error. */
 static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *status, RetexError *err)
 {
@@ -289,6 +301,8 @@ static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *s
         list_lamps(a, scene);
     else if (a->list_finishes)
         list_finishes(scene);
+    else if (a->list_cameras)
+        list_cameras(scene);
     else if (a->live)
         code = live(a, scene, err);
     else if (a->variants)
@@ -348,8 +362,8 @@ int main(int argc, char **argv)
                .about = "Render a scene in POV-Ray's language into a set for retexturing."};
     Arguments a = {.cli = &cli};
     parse_arguments(&a);
-    int needless = a.list || a.tracing || a.variants ||
-                   ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
+    int needless =
+        a.list || a.tracing || a.variants || ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
     a.output = needless || a.live ? NULL : cli_output(&cli);
     if (a.live)
         cli_output(&cli); /* no terminal, either */

@@ -27,7 +27,7 @@ typedef struct Arguments {
     const char *lamps[LIST_MAX];
     int nlamps, each_lamp, list_lamps;
     const char *finishes[LIST_MAX], *shown[LIST_MAX];
-    int nfinishes, nshown, list_finishes, live;
+    int nfinishes, nshown, list_finishes, list_cameras, live;
     const char *lights[LIST_MAX], *solo; /* values of lamps, as arguments of --light */
     const char *preset;
     int nlights, lamps_by_light; /* 1: they name the lamps, too */
@@ -56,7 +56,7 @@ typedef struct Arguments {
 /* Whether it prints an answer, and makes no picture. */
 static inline int answers(const Arguments *a)
 {
-    return a->list || a->list_lamps || a->list_finishes || a->tracing || a->live;
+    return a->list || a->list_lamps || a->list_finishes || a->list_cameras || a->tracing || a->live;
 }
 
 /* ---- arguments.c ---- */

@@ -57,3 +57,31 @@ $ for c in '<.4,.5,1>' '<0,.5,1>' 0 '1 transmit .5'; do
 $ echo 'camera { } sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb <0,0,1>] } } }' >sky.pov
 $ retex-render -q --list-lamps --size 16x8 sky.pov
 > 100.00%  sky  several colours
+
+# Cameras that the scene declares, as --camera takes them: by name and by numbers the picture is the same.
+$ cat >cameras.pov <<'END'
++ #declare Near = camera { location <1,2,-3> right 4/3*x up y angle 50 look_at <1,2,5> }
++ #declare Far = camera { location <0,1,-20> right 4/3*x up y angle 20 look_at <0,1,0> }
++ #declare Near = camera { location <2,2,-3> right 4/3*x up y angle 60 look_at <0,1,0> }
++ #declare Parallel = camera { orthographic location -5*z right 4*x up 3*y }
++ camera { Far }
++ light_source { <5,9,-9> 1 }
++ box { -1, 1 pigment { checker rgb 1 rgb <.5,.1,0> scale .3 } }
++ plane { y, -1 pigment { rgb .5 } }
++ END
+$ retex-render --list-cameras cameras.pov | tee cameras.txt
+> Far	0,1,-20:0,1,-19:20
+> Near	2,2,-3:1.465478,1.732739,-2.198216:60
+> Parallel	0,0,-5:0,0,-4:67.24781
+$ for of in 1 2; do
++     retex-render -q --plain --spp 1 --size 32x24 --camera $(sed -n 2p cameras.txt | cut -f$of) cameras.pov -o by$of.exr
++ done
+$ retex-diff -q by1.exr by2.exr --fail-psnr 60
+$ retex-render --list-cameras --list-lamps cameras.pov
+! retex-render: error: --list-targets, --list-lamps, --list-finishes, --list-cameras and --trace-pixel exclude each other
+= 2
+$ retex-render --list-cameras cameras.pov -o x.exr
+! retex-render: error: --list-cameras goes to standard output: no -o
+= 2
+$ echo 'sphere { 0, 1 }' >none.pov
+$ retex-render -q --list-cameras none.pov

@@ -206,7 +206,7 @@ $ retex-render s.pov --mattes a.exr --shard 1/2 -o x.exr
 ! retex-render: error: --shard writes rows only: give --mattes with --merge
 = 2
 $ retex-render s.pov --mattes a.exr --list-targets
-! retex-render: error: --mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
+! retex-render: error: --mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
 = 2
 $ retex-render -t Floor -t Floor_reflected=Wall s.pov --mattes a.exr -o x.exr
 ! retex-render: error: two masks would be the channel mask_Floor_reflected.R: give one target another name

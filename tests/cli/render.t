@@ -189,7 +189,7 @@ $ retex-render -q --size 8x6 --spp 1 --aov-dir nowhere/guides ball.pov -o y.png
 ! retex-render: error: --aov-dir: cannot make the folder nowhere/guides: No such file or directory
 = 2
 $ retex-render -q --size 8x6 --aov-dir guides --list-targets ball.pov
-! retex-render: error: --aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
+! retex-render: error: --aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
 = 2
 
 # A scene without any object is a picture as in POV-Ray: black, or its background or sky.
@@ -431,10 +431,10 @@ $ set -- --denoise --size 2000x2000 --spp 4096 ball.pov
 > 2
 > 2
 ! retex-render: error: --denoise needs the data that --no-denoise-data omits
-! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control
 ! retex-render: error: --denoise and --control-data exclude each other
 ! retex-render: error: --denoise needs at least two samples per pixel: one does not show the noise
 $ rm x.exr

@@ -368,7 +368,7 @@ $ ./render --merge s1 --resume -o x.exr
 ! retex-render: error: --merge renders no rows: no --resume or --shard
 = 2
 $ ./render --resume --list-targets
-! retex-render: error: --resume cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants, --control or --control-data
+! retex-render: error: --resume cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants, --control or --control-data
 = 2
 $ ./render --shard 1/2 --aov depth -o x
 ! retex-render: error: --shard writes rows only: give --aov, --aov-dir and --stats with --merge

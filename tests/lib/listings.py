@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 LISTINGS = (["--list-targets"], ["-v", "--list-targets"], ["--list-targets=sheet.png"], ["--list-lamps"],
-            ["--list-finishes"])
+            ["--list-finishes"], ["--list-cameras"])
 SIZE = ["--size", "32x24", "--threads", "1", "--max-time", "60", "-q"]
 SECONDS = 120
 
