@@ -86,7 +86,7 @@ def obj(name, faces, scale=1.0, z_up=False, turned=False):
         out.write('\n'.join(lines) + '\n')
 
 
-def gltf(name, faces, scale=1.0, emission=(), camera=None, instances=1, apart=0.0):
+def gltf(name, faces, scale=1.0, emission=(), camera=None, place=(2, 1.2, 3.5), instances=1, apart=0.0):
     names = sorted({what for what, _ in faces})
     data, views, accessors, primitives = b'', [], [], []
     for material, what in enumerate(names):
@@ -121,7 +121,7 @@ def gltf(name, faces, scale=1.0, emission=(), camera=None, instances=1, apart=0.
                           'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}]}
     if camera:
         scene['cameras'] = [{'type': 'perspective', 'perspective': {'yfov': .6, 'aspectRatio': 4 / 3, 'znear': .1}}]
-        scene['nodes'].append({'camera': 0, 'name': camera, 'translation': [2, 1.2, 3.5]})
+        scene['nodes'].append({'camera': 0, 'name': camera, 'translation': list(place)})
         scene['scenes'][0]['nodes'].append(instances)
     with open(name, 'w') as out:
         json.dump(scene, out)
@@ -156,6 +156,7 @@ def write_models():
     hidden = [('Lamp', [(3.2, .78, 1.25), (4, .78, 1.25), (4, .78, 1.75), (3.2, .78, 1.75)])]
     gltf('hidden.gltf', faces + tray + hidden, emission=('Lamp',))
     gltf('camera.gltf', faces, camera='inside')
+    gltf('blind.gltf', faces, camera='eye', place=(3.6, 1.2, .05))  # a wall is before it
     gltf('cm.gltf', faces, 100)
     gltf('toy.gltf', faces, 3)
 

@@ -144,6 +144,20 @@ $ retex-import -f -q --camera auto camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
 $ retex-import -f -q --camera 1 camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
+# One that sees a wall alone is not used, unless it is asked for. How good one is, against all other views.
+$ retex-import blind.gltf -o blind 2>&1 | grep 'the camera' && judge view blind room && grep -c '^#declare Camera_eye' blind/blind.pov
+> retex-import: the camera Camera_eye sees nothing, or a wall before it; --camera Camera_eye takes it all the same
+> a view
+> 1
+$ retex-import -f -q --camera Camera_eye blind.gltf -o x && grep '^camera' x/x.pov
+> camera { Camera_eye }
+$ retex-import -f -v camera.gltf -o x 2>&1 | grep -o 'other views show more than.*'
+> other views show more than Camera_inside
+$ retex-render --list-cameras x/x.pov | cut -f1
+> Camera_inside
+> View_2
+> View_3
+> View_4
 $ retex-import -q --camera inside camera.gltf -o inside && judge view inside room
 > a view
 $ retex-import -f --camera outside camera.gltf -o x 2>&1 | grep -o 'the view is from outside'

@@ -4,6 +4,7 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -330,6 +331,187 @@ static void a_view_is_of_the_furniture(void **unused)
     space_free(space);
 }
 
+/* ---- which view is the best ---- */
+
+/* Boxes from corner to corner, in metres; a room's are seen from inside, without some of its sides. */
+typedef struct Box {
+    double low[3], high[3];
+    int inwards;
+    unsigned without;
+} Box;
+
+static Space *boxes(const Box *list, int count)
+{
+    SpaceTriangles t = make(24 * (size_t)count, 12 * (size_t)count);
+    for (int i = 0; i < count; i++)
+        add_box(&t, list[i].low, list[i].high, list[i].inwards, list[i].without, 6 * (uint32_t)i);
+    return create(&t);
+}
+
+static double nearest_beside(const Space *space, const double eye[3])
+{
+    double nearest = INFINITY;
+    for (int i = 0; i < 32; i++) {
+        const double a = 2 * PI * i / 32, direction[3] = {cos(a), 0, sin(a)};
+        SpaceHit hit;
+        if (space_ray(space, eye, direction, 0, INFINITY, &hit))
+            nearest = fmin(nearest, hit.t);
+    }
+    return nearest;
+}
+
+/* What must hold of each view: its share of floor by rays of its own, its eye in free space, and no two alike. */
+static void check_views(const Room *room, const Views *views, ViewsFrom from, double least_floor)
+{
+    const Space *space = room->space;
+    for (int i = 0; i < views->count; i++) {
+        const View *v = &views->list[i].view;
+        assert_true(i == 0 || views->list[i].score <= views->list[i - 1].score);
+        assert_true(fabs(v->up[0] * v->ahead[2] - v->up[2] * v->ahead[0]) < 1e-9 && v->up[1] > 0.5); /* upright */
+        if (views->list[i].from == VIEWS_INSIDE)
+            assert_true(nearest_beside(space, v->eye) > 0.4);
+        for (int k = 0; k < i; k++) {
+            const View *w = &views->list[k].view;
+            double apart = 0, cosine = 0;
+            for (int j = 0; j < 3; j++)
+                apart = hypot(apart, v->eye[j] - w->eye[j]), cosine += v->ahead[j] * w->ahead[j];
+            assert_true(apart > 0.99 * picture_metre(room) || cosine < cos(29.9 * PI / 180));
+        }
+    }
+    assert_int_equal(views->list[0].from, from);
+    int floor = 0, all = 0;
+    for (int j = -10; j <= 10; j++)
+        for (int i = -10; i <= 10; i++) {
+            const View *v = &views->list[0].view;
+            const double right[3] = {v->up[1] * v->ahead[2] - v->up[2] * v->ahead[1],
+                                     v->up[2] * v->ahead[0] - v->up[0] * v->ahead[2],
+                                     v->up[0] * v->ahead[1] - v->up[1] * v->ahead[0]};
+            const double half = tan(v->angle * PI / 360);
+            double direction[3];
+            SpaceHit hit;
+            for (int k = 0; k < 3; k++)
+                direction[k] = v->ahead[k] + half * (i / 10.0 * right[k] + 0.75 * j / 10.0 * v->up[k]);
+            all++;
+            floor += space_ray(space, v->eye, direction, 0, INFINITY, &hit) && fabs(hit.point[1]) < 0.01;
+        }
+    assert_true(floor >= least_floor * all);
+}
+
+static void the_best_view_is_where_people_stand(void **unused)
+{
+    static const Box closed[] = {{{0, 0, 0}, {5, 2.6, 4}, 1, 0},
+                                 {{3, 0, 1}, {4.2, .75, 2}, 0, 0},
+                                 {{.1, 0, .1}, {2.2, .8, 1}, 0, 0},
+                                 {{4.4, 0, 3}, {4.9, 1.9, 3.9}, 0, 0}},
+                     ell[] = {{{0, 0, 0}, {6, 2.5, 2.8}, 1, 1u << 5},
+                              {{0, 0, 2.8}, {2.8, 2.5, 6}, 1, 1u << 4},
+                              {{2.8, 0, 2.8}, {6, 2.5, 2.81}, 0, 0},
+                              {{4, 0, .1}, {5.9, .5, 1.7}, 0, 0},
+                              {{.1, 0, 4.8}, {1.5, .74, 5.9}, 0, 0}},
+                     open_side[] = {{{0, 0, 0}, {5, 2.6, 4}, 1, 1u << 4},
+                                    {{1, 0, 1}, {2.2, .75, 2}, 0, 0},
+                                    {{3, 0, 2.5}, {4.5, .8, 3.8}, 0, 0}},
+                     house[] = {{{0, 0, 0}, {8, 2.6, 6}, 1, 0},
+                                {{-.3, -.01, -.3}, {8.3, 2.9, 6.3}, 0, 0},
+                                {{-1, 2.9, -1}, {9, 3.1, 7}, 0, 0},
+                                {{2, 0, 2}, {4, .75, 3}, 0, 0},
+                                {{6, 0, .1}, {7.9, .8, 1}, 0, 0}},
+                     chair[] = {{{0, .45, 0}, {.5, .5, .5}, 0, 0},   {{0, .5, .45}, {.5, 1, .5}, 0, 0},
+                                {{0, 0, 0}, {.05, .45, .05}, 0, 0},  {{.45, 0, 0}, {.5, .45, .05}, 0, 0},
+                                {{0, 0, .45}, {.05, .45, .5}, 0, 0}, {{.45, 0, .45}, {.5, .45, .5}, 0, 0}},
+                     sculpture[] = {{{0, 0, 0}, {1, 1, 1}, 0, 0}, {{.2, 1, .2}, {.8, 2.4, .8}, 0, 0}};
+    static const struct {
+        const Box *boxes;
+        int count;
+        ViewsFrom from;
+        double floor;
+    } models[] = {
+        {closed, 4, VIEWS_INSIDE, .08}, {ell, 5, VIEWS_INSIDE, .08},  {open_side, 3, VIEWS_EITHER, .05},
+        {house, 5, VIEWS_INSIDE, .08},  {chair, 6, VIEWS_OUTSIDE, 0}, {sculpture, 2, VIEWS_OUTSIDE, 0},
+    };
+    (void)unused;
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        Space *space = boxes(models[i].boxes, models[i].count);
+        RetexError err = {0};
+        Views views;
+        Room room;
+        assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+        assert_int_equal(views_find(&room, NULL, VIEWS_EITHER, NULL, &views, &err), RETEX_OK);
+        assert_int_equal(views.count, VIEWS_MOST);
+        check_views(&room, &views, models[i].from == VIEWS_EITHER ? views.list[0].from : models[i].from,
+                    models[i].floor);
+        /* one that is given stays the first */
+        const View best = views.list[0].view;
+        assert_int_equal(views_find(&room, NULL, VIEWS_EITHER, &best, &views, &err), RETEX_OK);
+        assert_memory_equal(&views.list[0].view, &best, sizeof best);
+        assert_int_equal(views.list[0].from, VIEWS_GIVEN);
+        room_free(&room);
+        space_free(space);
+    }
+}
+
+/* Each term of the score, by two pictures that differ in it alone. */
+static void the_score_is_of_what_is_shown(void **unused)
+{
+    (void)unused;
+    Content plain = {.furniture = .1, .floor = .15, .wall = .5, .objects = 2, .materials = 1, .extent = .15};
+    const double score = content_score(&plain);
+#define WITH(member, value, sign)                                                                                      \
+    {                                                                                                                  \
+        offsetof(Content, member), value, sign                                                                         \
+    }
+    static const struct {
+        size_t at;
+        double value;
+        int sign;
+    } changes[] = {
+        WITH(furniture, .14, 1), WITH(floor, .2, 1), WITH(wall, .05, -1), WITH(objects, 3, 1),  WITH(materials, 2, 1),
+        WITH(extent, .25, 1),    WITH(depth, 1, 1),  WITH(detail, 3, 1),  WITH(middle, .5, 1),  WITH(ceiling, .4, -1),
+        WITH(nothing, .4, -1),   WITH(near, .1, -1), WITH(back, .2, -1),  WITH(cut, .2, -1),    WITH(largest, .3, -1),
+        WITH(obstacle, .2, -1),  WITH(tilt, .5, -1), WITH(open, .3, -1),  WITH(behind, .5, -1),
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        Content other = plain;
+        *(double *)((char *)&other + changes[i].at) = changes[i].value;
+        assert_true(changes[i].sign * (content_score(&other) - score) > 0.01);
+    }
+    /* a little of what is no harm */
+    Content other = plain;
+    other.ceiling = .1, other.nothing = .1, other.tilt = .2, other.open = .05, other.largest = .1;
+    assert_true(content_score(&other) == score);
+}
+
+/* Half a picture of floor, a quarter each of two things that the edges do not cut, seen from behind. */
+static void contents_are_counted(void **unused)
+{
+    (void)unused;
+    Picture *picture = calloc(1, sizeof *picture);
+    const uint32_t materials[3] = {7, 8, 8};
+    assert_non_null(picture);
+    picture->width = 8, picture->height = 8, picture->size = 10;
+    for (int i = 0; i < 64; i++) {
+        const int x = i % 8, y = i / 8, is_thing = x >= 2 && x < 6 && y >= 2 && y < 6;
+        PictureSample *s = &picture->samples[i];
+        s->kind = is_thing ? PICTURE_FURNITURE : y < 4 ? PICTURE_NOTHING : PICTURE_FLOOR;
+        s->tag = is_thing ? x < 4 ? 1 : 2 : 0;
+        s->distance = is_thing ? 0.75f : 4;
+        s->is_front = !is_thing;
+        s->at[0] = is_thing ? -1 : 1;
+    }
+    const Content c = picture_content(picture, materials);
+    const double thing = 16 / 64.0, nothing = 24 / 64.0, floor = 24 / 64.0;
+    assert_true(fabs(c.furniture - thing) < 1e-12 && fabs(c.nothing - nothing) < 1e-12);
+    assert_true(fabs(c.floor - floor) < 1e-12 && c.wall == 0 && c.cut == 0 && c.things == 3);
+    assert_true(fabs(c.back - thing) < 1e-12 && fabs(c.near - thing / 2) < 1e-12);
+    assert_true(fabs(c.largest - thing / 2) < 1e-12 && fabs(c.obstacle - thing) < 1e-12);
+    assert_true(fabs(c.objects + thing * log2(thing / 2) + floor * log2(floor)) < 1e-12);
+    assert_true(fabs(c.materials + thing * log2(thing) + floor * log2(floor)) < 1e-12);
+    assert_true(fabs(c.extent - sqrt(1 - 0.2 * 0.2) / 10) < 1e-6); /* of 16 at -1 and 24 at 1 */
+    picture->samples[3].kind = PICTURE_FURNITURE, picture->samples[3].tag = 1;
+    assert_true(fabs(picture_content(picture, materials).cut - 9 / 64.0) < 1e-12);
+    free(picture);
+}
+
 /* ---- much at one place ---- */
 
 /* A line that is as likely as any other through a ball. */
@@ -434,6 +616,9 @@ int main(void)
         cmocka_unit_test(crowds_are_not_asked),
         cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),
         cmocka_unit_test(a_view_is_of_the_furniture),
+        cmocka_unit_test(the_best_view_is_where_people_stand),
+        cmocka_unit_test(the_score_is_of_what_is_shown),
+        cmocka_unit_test(contents_are_counted),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);

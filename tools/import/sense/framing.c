@@ -49,8 +49,8 @@ int framing_is_asked(const Import *import, int *is_asked, RetexError *err)
     *is_asked = 0;
     if (!asked)
         return RETEX_OK;
-    *is_asked = sense_camera_is(import, "inside") || sense_camera_is(import, "outside") ||
-                sense_camera_is(import, "cutaway");
+    *is_asked =
+        sense_camera_is(import, "inside") || sense_camera_is(import, "outside") || sense_camera_is(import, "cutaway");
     if (*is_asked || !strchr(asked, ':') || !take_place(asked, &framing))
         return RETEX_OK;
     *is_asked = 1;
@@ -135,13 +135,10 @@ static int declare_others(Import *import, const Views *views, FILE *out, RetexEr
 /* ---- the scene's camera ---- */
 
 /* What was chosen, and why. */
-static void tell(const Import *import, const Framing *f, const char *what, const char *more)
+static void tell(const Import *import, const char *why, const Framing *f, const char *what, const char *more)
 {
-    const char *asked = import->options->camera;
-    const int is_asked = asked && strcmp(asked, "auto") != 0;
-    import_tell(import, IMPORT_INFO, "%sthe view is %s, from %.4g,%.4g,%.4g to %.4g,%.4g,%.4g, %g degrees%s",
-                is_asked ? "" : "no camera in the model: ", what, f->at[0], f->at[1], f->at[2], f->to[0], f->to[1],
-                f->to[2], f->angle, more);
+    import_tell(import, IMPORT_INFO, "%sthe view is %s, from %.4g,%.4g,%.4g to %.4g,%.4g,%.4g, %g degrees%s", why, what,
+                f->at[0], f->at[1], f->at[2], f->to[0], f->to[1], f->to[2], f->angle, more);
 }
 
 static void tell_cutaway(const Import *import, const Framing *f)
@@ -149,7 +146,7 @@ static void tell_cutaway(const Import *import, const Framing *f)
     char more[120];
     snprintf(more, sizeof more, "; %ld triangle%s before the rooms %s left out", import->cutaway->count,
              import->cutaway->count == 1 ? "" : "s", import->cutaway->count == 1 ? "is" : "are");
-    tell(import, f, "into the rooms from above", more);
+    tell(import, "", f, "into the rooms from above", more);
 }
 
 static Framing frame_cutaway(const Cutaway *cutaway)
@@ -179,7 +176,7 @@ static void use(Import *import, const Framing *framing, FILE *out)
     print_view(out, "", framing);
 }
 
-static int write_best(Import *import, FILE *out, RetexError *err)
+static int write_best(Import *import, const char *why, FILE *out, RetexError *err)
 {
     const Sense *sense = import->sense;
     const ViewsFrom from = sense_camera_is(import, "inside")    ? VIEWS_INSIDE
@@ -196,7 +193,7 @@ static int write_best(Import *import, FILE *out, RetexError *err)
     char shown[160] = "from outside";
     if (views.count)
         describe(&views.list[0], shown, sizeof shown);
-    tell(import, &framing, shown, "");
+    tell(import, why, &framing, shown, "");
     code = declare_others(import, &views, out, err);
     use(import, &framing, out);
     return code;
@@ -231,12 +228,13 @@ int framing_write_own(Import *import, const char *name, const View *view, FILE *
     if (view)
         code = views_find(&import->sense->room, import->sense->materials, VIEWS_EITHER, view, &views, err);
     if (!code && views.count > 1 && !is_asked && sees_nothing(&views.list[0].content)) {
-        import_tell(import, IMPORT_INFO, "the camera %s sees nothing, or a wall before it; --camera %s takes it all the same",
-                    name, name);
-        return write_best(import, out, err);
+        import_tell(import, IMPORT_INFO,
+                    "the camera %s sees nothing, or a wall before it; --camera %s takes it all the same", name, name);
+        return write_best(import, "", out, err);
     }
     if (!code && views.count)
-        import_tell(import, IMPORT_DETAIL, "%d of %d other views show more than %s", views.better, views.candidates, name);
+        import_tell(import, IMPORT_DETAIL, "%d of %d other views show more than %s", views.better, views.candidates,
+                    name);
     if (!code)
         code = declare_others(import, &views, out, err);
     fprintf(out, "camera { %s }\n\n", name);
@@ -255,7 +253,8 @@ int framing_write(Import *import, FILE *out, RetexError *err)
         use(import, &framing, out);
         tell_cutaway(import, &framing);
     } else
-        code = write_best(import, out, err);
+        code =
+            write_best(import, asked && !sense_camera_is(import, "auto") ? "" : "no camera in the model: ", out, err);
     fprintf(out, "\n");
     return code;
 }
