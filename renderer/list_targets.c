@@ -16,6 +16,35 @@ static int compare_shares(const void *a, const void *b)
     return x->share < y->share ? 1 : x->share > y->share ? -1 : strcmp(x->name, y->name);
 }
 
+/* Where the scene offers a target by its name, -t NAME takes that one. */
+static void print_ident(const Scene *scene, const IdentShare *ident)
+{
+    const SceneTarget *offered = scene_offers(scene, ident->name);
+    const int is_hidden = offered && strcmp(offered->name, ident->name) == 0;
+    printf("%6.2f%%  %s%s%s\n", 100 * ident->share, ident->name, is_hidden ? "=" : "", is_hidden ? ident->name : "");
+}
+
+/* Those that the scene offers, each as if it were the only one. */
+static void list_offered(Arguments *a, Scene *scene)
+{
+    double shares[RETEX_MAX_TARGETS];
+    char text[SELECTOR_MAX];
+    RetexError err;
+    for (int k = 0; k < scene->noffered; k++) {
+        const SceneTarget *one = &scene->offered[k];
+        if (job_resolve_targets(scene, &a->render, &one->name, 1, &err)) {
+            cli_warn(a->cli, "%s", err.message);
+            continue;
+        }
+        if (render_target_shares(scene, &a->render, shares, &err))
+            cli_fail(a->cli, &err);
+        snprintf(text, sizeof text, "%s", one->selectors);
+        printf("%6.2f%%  %s\toffered by the scene: %s\n", 100 * shares[0], one->name, cli_plain(text));
+    }
+    if (scene->noffered && job_resolve_targets(scene, &a->render, a->targets, a->ntargets, &err))
+        cli_fail(a->cli, &err);
+}
+
 static void list_idents(Arguments *a, const Scene *scene)
 {
     RetexError err;
@@ -29,7 +58,7 @@ static void list_idents(Arguments *a, const Scene *scene)
         list[k] = (IdentShare){scene_name_of(scene, scene->idents[k]), shares[k]};
     qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
     for (int k = 0; k < scene->nidents; k++)
-        printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
+        print_ident(scene, &list[k]);
     free(shares);
     free(list);
 }
@@ -87,11 +116,12 @@ void check_sheet(const Arguments *a)
         cli_fail(a->cli, &err);
 }
 
-void list_targets(Arguments *a, const Scene *scene)
+void list_targets(Arguments *a, Scene *scene)
 {
     Candidates all;
     RetexImage sheet = {0};
     RetexError err;
+    list_offered(a, scene);
     list_idents(a, scene);
     if (!lists_pixels(a))
         return;

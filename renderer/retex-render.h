@@ -101,7 +101,7 @@ int replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **lo
 void check_sheet(const Arguments *arguments);
 /* Whether it takes memory for each pixel. */
 static inline int lists_pixels(const Arguments *a) { return a->sheet || a->cli->verbose; }
-void list_targets(Arguments *arguments, const Scene *scene);
+void list_targets(Arguments *arguments, Scene *scene);
 
 /* ---- live.c ---- */
 

@@ -1,5 +1,7 @@
-/* Targets and lamps by what pixels show. `@X:Y` becomes the number of the object there, with the scope of what is taken
- * with it, which a set keeps: at another size the same pixel would show another one. */
+/* Targets and lamps by what pixels show, or what lies at points of the scene. `@X:Y` and `@X:Y:Z` become the number of
+ * the object there, with the scope of what is taken with it, which a set keeps: at another size the same pixel would
+ * show another one. What a scene offers by a name is put in its place before that. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +10,15 @@
 #include "path/projection.h"
 #include "path/target_units.h"
 #include "faces/faces.h"
+#include "faces/nearest.h"
 
 enum { PIXELS_MAX = 64 };
 typedef struct Pixels {
     SelectorScope scope; /* of those that name none */
     int count;
+    unsigned char is_point[PIXELS_MAX]; /* of the scene */
     int at[PIXELS_MAX][2];
+    Vec3 points[PIXELS_MAX];
     SelectorScope scopes[PIXELS_MAX];
     ShownSurface shown[PIXELS_MAX];
 } Pixels;
@@ -32,10 +37,25 @@ static const char *next_selector(const char *selector)
     return *selector ? selector + 1 : NULL;
 }
 
+/* X:Y:Z, in scene units. */
+static int read_point(const char *text, Vec3 *point)
+{
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+        char *end;
+        at[k] = strtod(text, &end);
+        if (end == text || !(fabs(at[k]) < 1e15) || *end != (k < 2 ? ':' : 0))
+            return 0;
+        text = end + 1;
+    }
+    *point = vec3(at[0], at[1], at[2]);
+    return 1;
+}
+
 static int find_pixels(Pixels *pixels, const char *spec, RetexError *err)
 {
     for (const char *at = first_selector(spec); at; at = next_selector(at)) {
-        char word[64], *slash;
+        char word[128], *slash;
         int k = pixels->count;
         if (*at != '@')
             continue;
@@ -45,11 +65,12 @@ static int find_pixels(Pixels *pixels, const char *spec, RetexError *err)
         pixels->scopes[k] = pixels->scope;
         if ((slash = strchr(word, '/')))
             *slash = 0;
-        if (!job_numbers(word + 1, ':', 2, pixels->at[k]) ||
+        pixels->is_point[k] = (unsigned char)read_point(word + 1, &pixels->points[k]);
+        if ((!pixels->is_point[k] && !job_numbers(word + 1, ':', 2, pixels->at[k])) ||
             (slash && !selector_scope(&pixels->scopes[k], slash + 1)))
             return retex_fail(err, RETEX_EINVAL,
-                              "target `%.*s`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat "
-                              "or /level",
+                              "target `%.*s`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; "
+                              "or after either /material, /object, /flat or /level",
                               (int)selector_length(at), at);
         pixels->count++;
     }
@@ -110,6 +131,23 @@ static int name_all(Scene *scene, const Pixels *pixels, const char *const *specs
     return code;
 }
 
+static int find_shown(Pixels *pixels, const Scene *scene, const RenderParams *render, RetexError *err)
+{
+    int pixel[PIXELS_MAX][2], of[PIXELS_MAX], count = 0, code = RETEX_OK;
+    ShownSurface shown[PIXELS_MAX];
+    for (int k = 0; k < pixels->count && !code; k++) {
+        if (pixels->is_point[k])
+            code = faces_nearest(&pixels->shown[k], scene, pixels->points[k], err);
+        else
+            memcpy(pixel[count], pixels->at[k], sizeof *pixel), of[count++] = k;
+    }
+    if (!code && count)
+        code = render_pick(scene, render, count, (const int(*)[2])pixel, shown, err);
+    for (int k = 0; k < count && !code; k++)
+        pixels->shown[of[k]] = shown[k];
+    return code;
+}
+
 /* Copies of the specs, in which numbers of objects stand for pixels. scope: of pixels that name none. */
 static int name_pixels(Scene *scene, const RenderParams *render, const char *const *specs, int nspecs,
                        SelectorScope scope, const char **named, RetexError *err)
@@ -120,7 +158,7 @@ static int name_pixels(Scene *scene, const RenderParams *render, const char *con
         named[k] = specs[k], code = find_pixels(&pixels, specs[k], err);
     if (code || !pixels.count)
         return code;
-    code = render_pick(scene, render, pixels.count, (const int(*)[2])pixels.at, pixels.shown, err);
+    code = find_shown(&pixels, scene, render, err);
     return code ? code : name_all(scene, &pixels, specs, nspecs, named, err);
 }
 
@@ -151,12 +189,32 @@ static int name_targets(Scene *scene, const RenderParams *render, const char *co
     return code;
 }
 
-int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
-                        RetexError *err)
+/* A target that the scene offers, as NAME=SELECTORS, with the options of the spec if it has any; else the spec. */
+static int take_offered(Scene *scene, const char *spec, const char **taken, RetexError *err)
+{
+    const char *options = target_spec_options(spec);
+    char name[RETEX_NAME_MAX];
+    const SceneTarget *offered = NULL;
+    *taken = spec;
+    if (!strchr(spec, '=') || strchr(spec, '=') > options) {
+        snprintf(name, sizeof name, "%.*s", (int)(options - spec), spec);
+        offered = scene_offers(scene, name);
+    }
+    if (!offered)
+        return RETEX_OK;
+    const char *selectors = offered->selectors, *end = target_spec_options(selectors);
+    const size_t size = strlen(name) + strlen(selectors) + strlen(options) + 2;
+    char *text = arena_alloc(scene->arena, size);
+    if (!text)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
+    snprintf(text, size, "%s=%.*s%s", name, (int)(end - selectors), selectors, *options ? options : end);
+    *taken = text;
+    return RETEX_OK;
+}
+
+static int resolve(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets, RetexError *err)
 {
     const char *named[RETEX_MAX_TARGETS];
-    if (ntargets > RETEX_MAX_TARGETS)
-        return scene_resolve_targets(scene, targets, ntargets, err);
     int code = name_targets(scene, render, targets, ntargets, named, err);
     if (!code)
         code = scene_resolve_targets(scene, named, ntargets, err);
@@ -167,6 +225,32 @@ int job_resolve_targets(Scene *scene, const RenderParams *render, const char *co
     if (!code)
         target_units_choose(scene);
     return code;
+}
+
+/* What was typed is a name: say which of those that the scene offers cannot be. */
+static int explain(Scene *scene, const RenderParams *render, const char *const *typed, const char *const *taken,
+                   int ntargets, int code, RetexError *err)
+{
+    RetexError why = {0};
+    for (int k = 0; k < ntargets; k++)
+        if (taken[k] != typed[k] && resolve(scene, render, &taken[k], 1, &why))
+            return retex_fail(err, code, "target `%s` of the scene: %s", typed[k], why.message);
+    return code;
+}
+
+int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
+                        RetexError *err)
+{
+    const char *taken[RETEX_MAX_TARGETS];
+    if (ntargets > RETEX_MAX_TARGETS)
+        return scene_resolve_targets(scene, targets, ntargets, err);
+    int code = RETEX_OK;
+    for (int k = 0; k < ntargets && !code; k++)
+        code = take_offered(scene, targets[k], &taken[k], err);
+    if (code)
+        return code;
+    code = resolve(scene, render, taken, ntargets, err);
+    return code ? explain(scene, render, targets, taken, ntargets, code, err) : code;
 }
 
 int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *names, RetexError *err)

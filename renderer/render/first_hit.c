@@ -319,10 +319,15 @@ int first_hit_shown(const FirstHitWindow *window, int x, int y, ShownSurface *sh
     return 1;
 }
 
+int first_hit_target_shares(const FirstHitWindow *window, double *shares, RetexError *err)
+{
+    return count_shares(window, window->scene->ntargets, 0, shares, err);
+}
+
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err)
 {
     double shares[RETEX_MAX_TARGETS] = {0};
-    int code = count_shares(window, window->scene->ntargets, 0, shares, err);
+    int code = first_hit_target_shares(window, shares, err);
     RetexTarget *target;
     for (int t = 0; (target = retex_set_mutable_target(set, t)); t++) {
         target->share = shares[t];

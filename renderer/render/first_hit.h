@@ -35,6 +35,8 @@ int first_hit_ray(const FirstHitWindow *window, int x, int y, Ray *ray, Hit *hit
 int first_hit_shown(const FirstHitWindow *window, int x, int y, ShownSurface *shown);
 /* Which object a surface is of, and which of its textures if not all are blended on it. */
 ShownSurface first_hit_of(const Scene *scene, const Surface *surface);
+/* shares[t]: the share of pixels whose first hit is target t. */
+int first_hit_target_shares(const FirstHitWindow *window, double *shares, RetexError *err);
 /* shares[i]: the share of pixels whose first hit has identifier i. */
 int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
 

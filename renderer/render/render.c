@@ -176,6 +176,18 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
     return code;
 }
 
+int render_target_shares(const Scene *scene, const RenderParams *params, double shares[RETEX_MAX_TARGETS],
+                         RetexError *err)
+{
+    Render r;
+    int code = render_open(&r, scene, params, err);
+    FirstHitWindow window = render_window(&r);
+    if (!code)
+        code = first_hit_target_shares(&window, shares, err);
+    render_close(&r);
+    return code;
+}
+
 /* The pixel nearest to one that shows nothing; 0 where none shows anything. */
 static int nearest_object(const FirstHitWindow *w, const int from[2], int nearest[2])
 {

@@ -32,6 +32,9 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
 int render_check_window(const Scene *scene, const RenderParams *params, RetexError *err);
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
+/* The same of its targets. */
+int render_target_shares(const Scene *scene, const RenderParams *params, double shares[RETEX_MAX_TARGETS],
+                         RetexError *err);
 
 /* What each of these pixels shows at its centre. x and y as in the picture. */
 int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ShownSurface *shown,

@@ -99,6 +99,11 @@ typedef struct SceneName {
     const char *ident, *name;
 } SceneName;
 
+/* A target that a scene offers: what stands after `-t NAME=`. */
+typedef struct SceneTarget {
+    const char *name, *selectors;
+} SceneTarget;
+
 typedef struct SceneFile {
     const char *path;
     const struct SceneFile *next;
@@ -141,6 +146,8 @@ typedef struct Scene {
     const char **idents;
     int nnames;
     SceneName *names;        /* of retex_names */
+    int noffered;
+    SceneTarget *offered;    /* of retex_targets, each name once */
     int ntargets;
     Target targets[RETEX_MAX_TARGETS];
     int nnamed_finishes;
@@ -157,6 +164,9 @@ typedef struct Scene {
 const Texture *primitive_texture(const Primitive *primitive, int k, int *target);
 /* What people call that identifier: its name of retex_names, where a target can be named so, or itself. */
 const char *scene_name_of(const Scene *scene, const char *ident);
+/* The target that the scene offers by that name: exactly, else whatever its case where no identifier is called exactly
+ * so. NULL: none. */
+const SceneTarget *scene_offers(const Scene *scene, const char *name);
 /* Of two targets, or -1, the one that was asked for first: it wins. */
 static inline int first_target(int a, int b) { return a < 0 || (b >= 0 && b < a) ? b : a; }
 /* A plain texture of the primitive that is the target, or NULL. */

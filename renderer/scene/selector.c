@@ -88,24 +88,37 @@ static void append(char *text, size_t size, const char *part)
         memcpy(text + used, part, strlen(part) + 1);
 }
 
+/* Of all that -t takes by a name: what the scene offers, then what people call its identifiers. */
+static const char *known_name(const Scene *scene, int k)
+{
+    return k < scene->noffered ? scene->offered[k].name : scene_name_of(scene, scene->idents[k - scene->noffered]);
+}
+
+static int is_near(const Scene *scene, int k, const char *wanted)
+{
+    return near(known_name(scene, k), wanted) ||
+           (k >= scene->noffered && near(scene->idents[k - scene->noffered], wanted));
+}
+
 static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
 {
     char list[512] = "";
+    const int count = scene->noffered + scene->nidents;
     int shown = 0, close = 0;
-    for (int i = 0; i < scene->nidents; i++)
-        close += near(scene->idents[i], wanted) || near(scene_name_of(scene, scene->idents[i]), wanted);
-    for (int i = 0; i < scene->nidents && shown < 12; i++) {
-        const char *name = scene_name_of(scene, scene->idents[i]);
-        if (close > 0 && !near(scene->idents[i], wanted) && !near(name, wanted))
+    for (int i = 0; i < count; i++)
+        close += is_near(scene, i, wanted);
+    for (int i = 0; i < count && shown < 12; i++) {
+        const char *name = known_name(scene, i);
+        if (close > 0 && !is_near(scene, i, wanted))
             continue;
         append(list, sizeof list, shown++ ? ", " : "");
         append(list, sizeof list, name);
     }
-    if (scene->nidents == 0)
+    if (count == 0)
         return retex_fail(err, RETEX_ENOTFOUND, "no target `%s`: the scene uses no declared texture or object", wanted);
     return retex_fail(err, RETEX_ENOTFOUND, "no texture, pigment, material or object `%s` in the scene; %s: %s%s",
                       wanted, close > 0 ? "similar" : "there are", list,
-                      close == 0 && scene->nidents > shown ? ", …" : "");
+                      close == 0 && count > shown ? ", …" : "");
 }
 
 /* The identifier that people call so, exactly. */
@@ -141,6 +154,26 @@ static int find_ident(const Scene *scene, const char *wanted, const char **found
         return fail_unknown(scene, wanted, err);
     *found = any_case;
     return 0;
+}
+
+static int is_ident(const Scene *scene, const char *wanted)
+{
+    for (int i = 0; i < scene->nidents; i++)
+        if (strcmp(scene->idents[i], wanted) == 0)
+            return 1;
+    return find_named(scene, wanted) != NULL;
+}
+
+const SceneTarget *scene_offers(const Scene *scene, const char *name)
+{
+    const SceneTarget *any_case = NULL;
+    for (int k = 0; k < scene->noffered; k++) {
+        if (strcmp(scene->offered[k].name, name) == 0)
+            return &scene->offered[k];
+        if (!any_case && lower_equal(scene->offered[k].name, name))
+            any_case = &scene->offered[k];
+    }
+    return any_case && !is_ident(scene, name) ? any_case : NULL;
 }
 
 static int begins_any(const char *text)

@@ -109,7 +109,7 @@ static void print_scene_targets(const char *scene, const char *after)
         return;
     FILE *answer = list_targets(scene, &child);
     while (answer && fgets(text, sizeof text, answer))
-        if (sscanf(text, " %31[0-9.]%% %255[^\n]", share, name) == 2 && is_harmless(name))
+        if (sscanf(text, " %31[0-9.]%% %255[^\t\n]", share, name) == 2 && is_harmless(name) && !strchr(name, '='))
             printf("%s%s\t%s %% of the picture\n", name, after, share);
     if (answer) {
         fclose(answer);

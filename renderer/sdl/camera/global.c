@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include <retex/develop.h>
+#include <retex/target_name.h>
 #include "pattern/wave_sources.h"
 #include "sdl/camera/camera.h"
 #include "sdl/object/object.h"
@@ -58,6 +59,32 @@ static void parse_names(Sdl *sdl)
     }
 }
 
+enum { OFFERED_MAX = 64 };
+
+/* `retex_targets { "NAME" "SELECTOR,…" … }`; of one name the last. */
+static void parse_targets(Sdl *sdl)
+{
+    GlobalSettings *global = &builder_of(sdl)->global;
+    Scene *scene = sdl_scene(sdl);
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        const char *name = sdl_string(sdl);
+        int k = 0;
+        if (strlen(name) >= RETEX_NAME_MAX || !retex_target_name_is_valid(name))
+            sdl_error(sdl, "retex_targets: `%s` is no name of a target: 1 to %d letters, digits, spaces and `_-.+()`",
+                      name, RETEX_NAME_MAX - 1);
+        while (k < scene->noffered && strcmp(scene->offered[k].name, name) != 0)
+            k++;
+        if (k == OFFERED_MAX)
+            sdl_error(sdl, "retex_targets: more than %d", OFFERED_MAX);
+        if (k == scene->noffered)
+            scene->offered = sdl_grow(sdl, scene->offered, scene->noffered++, &global->offered_capacity,
+                                      sizeof *scene->offered);
+        scene->offered[k] = (SceneTarget){name, sdl_string(sdl)};
+        sdl_optional_comma(sdl);
+    }
+}
+
 /* `retex_exposure STOPS` */
 static void parse_exposure(Sdl *sdl)
 {
@@ -77,6 +104,8 @@ void parse_global_settings(Sdl *sdl)
             assumed_gamma(sdl);
         else if (sdl_accept(sdl, "retex_names"))
             parse_names(sdl);
+        else if (sdl_accept(sdl, "retex_targets"))
+            parse_targets(sdl);
         else if (sdl_accept(sdl, "retex_exposure"))
             parse_exposure(sdl);
         else if (sdl_accept(sdl, "ambient_light")) {

@@ -49,7 +49,7 @@ typedef struct GlobalSettings {
     int radiosity;        /* there is a block of it */
     int photons;          /* there is a block of them */
     Rgb irid_wavelength;
-    int name_capacity;  /* of the scene's names */
+    int name_capacity, offered_capacity; /* of the scene's names, and of the targets that it offers */
     int has_subsurface; /* there is the block, without which POV-Ray has none either */
     double mm_per_unit;
 } GlobalSettings;
