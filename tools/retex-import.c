@@ -42,9 +42,11 @@ typedef struct Request {
     const char *layer, *other_half;        /* of pictures; all else is for models */
     const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
     double exposure; /* stops; NAN: by a look at the scene */
-    int force;
+    int force, targets;
 } Request;
 
+static int lists_targets; /* see --targets */
+static char offered[128];  /* the names of those that were told */
 static int is_framed; /* of the scene that was written: see IMPORT_FRAMED */
 
 static void take_axis(Cli *cli, const CliOption *option, void *to)
@@ -118,6 +120,8 @@ static const CliOption options[] = {
      CLI_INTO(Request, layer)},
     {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0,
      CLI_INTO(Request, other_half)},
+    {"targets", 0, NULL, "print the targets that the scene offers: name, selector, share of the view", 0,
+     CLI_INTO(Request, targets)},
     {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0,
      CLI_INTO(Request, force)},
     {0},
@@ -205,12 +209,22 @@ _Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
 
 /* ---- the parent ---- */
 
+static void take_target(const char *text)
+{
+    const size_t used = strlen(offered);
+    snprintf(offered + used, sizeof offered - used, "%s%.*s", used ? ", " : "", (int)strcspn(text, "\t"), text);
+    if (lists_targets)
+        puts(text);
+}
+
 static void pass_on(const Cli *cli, char kind, const char *text)
 {
     if (kind == IMPORT_WARNING)
         cli_warn(cli, "%s", text);
     else if (kind == IMPORT_FRAMED)
         is_framed = 1;
+    else if (kind == IMPORT_TARGET)
+        take_target(text);
     else if (kind == IMPORT_ANSWER)
         puts(text);
     else if (kind == IMPORT_INFO)
@@ -439,6 +453,8 @@ static void import_to(const Cli *cli, Request *r)
     import->name = name;
     if (run_import(cli, import, &err))
         give_up(cli, &err);
+    if (offered[0])
+        cli_info(cli, "targets that are ready: %s; -t of retex-render takes them by name", offered);
     look(cli, r);
     watchdog_go_on();
     int code = RETEX_OK;
@@ -551,7 +567,10 @@ int main(int argc, char **argv)
         retex_budget_set_memory(cli.budget, usual);
     if (import->list_variants)
         return list_variants(&cli, import);
+    lists_targets = request.targets;
     import_to(&cli, &request);
+    if (lists_targets)
+        return cli_close(&cli, CLI_OK);
     watchdog_done(); /* nothing goes to standard output, which need not be closed well */
     return CLI_OK;
 }

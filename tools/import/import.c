@@ -197,6 +197,8 @@ static int write_scene(Import *import, RetexError *err)
     write_head(import, out);
     code = cameras_write(import, out, err);
     if (!code)
+        code = targets_write(import, out, err);
+    if (!code)
         code = lights_write(import, out, err);
     if (!code) {
         fwrite(materials, 1, size, out);

@@ -124,7 +124,8 @@ struct Import {
     unsigned long walked;      /* objects that write_object has seen */
     Cutaway *cutaway;          /* NULL: not asked for */
     double low[3], high[3];    /* of the scene as written */
-    double eye[3];             /* of the camera in use, in the scene */
+    double eye[3], target[3];  /* of the camera in use, in the scene; what it looks at */
+    double angle;              /* of it, in degrees from left to right */
     long triangles, objects;
     int emits; /* some material shines enough to light the scene */
     struct ImageFile *images;

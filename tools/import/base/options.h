@@ -7,6 +7,7 @@
 
 /* How messages are told: `kind` is one of these letters. */
 enum { IMPORT_WARNING = 'w', IMPORT_INFO = 'i', IMPORT_DETAIL = 'd', IMPORT_ANSWER = 'a' /* what was asked for */,
+       IMPORT_TARGET = 't' /* that the scene offers: its name, selector and share of the view, between tabs */,
        IMPORT_FRAMED = 'f' /* no text: the view is none of the model's cameras */ };
 typedef void ImportTell(void *context, char kind, const char *text);
 

@@ -36,6 +36,9 @@ int framing_write(Import *import, FILE *out, RetexError *err);
 /* The model's camera of that name, unless it sees nothing; and views to choose from. view: where it is, or NULL. */
 int framing_write_own(Import *import, const char *name, const View *view, FILE *out, RetexError *err);
 
+/* The surfaces that a person means by floor and wall, as targets that the scene offers; once it has a camera. */
+int targets_write(Import *import, FILE *out, RetexError *err);
+
 /* Place the camera, into import->cutaway, and drop what stands before the rooms, where it is asked for. */
 int cutaway_find(Import *import, RetexError *err);
 

@@ -1,0 +1,470 @@
+/* Surfaces that a person means by floor and wall, which the scene offers as targets.
+ *
+ * Rays through the view tell what is seen. Of planes that are seen, level ones that one could walk on are a floor:
+ * large, low, with things and walls above; upright ones behind which little is are walls. Names of nodes, meshes and
+ * materials count besides, in several languages. Each is written as a point of it and /level, which takes all that lies
+ * in the plane, whatever meshes and images it is of, and gives it UV in metres. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/base/tell.h"
+#include "import/base/world.h"
+#include "import/sense/sense.h"
+#include "import/space/space.h"
+
+enum { ACROSS = 112, DOWN = 84, RAYS = ACROSS * DOWN, MOST_PLANES = 96, STRIDE = 2477 /* no divisor of RAYS */ };
+#define FLAT 0.9848    /* cosine of 10 degrees, as /level has it */
+#define UPRIGHT 0.1736 /* its sine */
+
+/* ---- what names say ---- */
+
+static const char *const floor_words[] = {
+    "floor",   "floors", "flooring", "ground",  "parquet", "parquetry", "laminate", "linoleum", "boden",  "fussboden",
+    "fußboden", "parkett", "estrich",  "laminat", "dielen",  "sol",       "plancher", "piso",     "pisos",  "suelo",
+    "chao",    "chão",    "pavimento", "vloer",   "golv",    "gulv",      "podlaha",  "podloga",  "podłoga", "lattia",
+    "zemin",   "pol",    "yuka",     "floorboard", "floorboards", "tatami", NULL};
+static const char *const no_floor_words[] = {"lamp",  "light", "ceiling", "roof",   "rug",  "table", "desk", "bed",   "sofa",
+                                             "couch", "shelf", "decke",   "dach",   "tisch", "bett",  "teppich", "seat", "mat",
+                                             "counter", "countertop", "worktop", "shadow", NULL};
+static const char *const wall_words[] = {"wall",   "walls",  "wallpaper", "wand",  "waende", "wände", "mur",    "murs",  "mural",
+                                         "pared",  "paredes", "parete",   "pareti", "parede", "muro",  "muros",  "muur",  "vegg",
+                                         "vagg",   "vägg",   "sciana",    "ściana", "stena",  "seina", "duvar",  "kabe",  "tapete", NULL};
+static const char *const no_wall_words[] = {
+    "door",  "doors",   "window",   "windows", "curtain",  "curtains", "wardrobe", "closet", "cupboard", "cabinet", "fridge",
+    "picture", "painting", "frame",   "glass",   "tv",       "screen",   "monitor",  "bookshelf", "shelf", "shelves", "fenster",
+    "tuer",  "tür",     "schrank",  "vorhang", "blind",    "blinds",   "ceiling",  "floor",  "whiteboard", "poster", "art",
+    "bed",   "sofa",    "mirror",   "board",   "lamp",     "light",    "clock",    NULL};
+
+static int is_letter(unsigned char c)
+{
+    return isalpha(c) || c >= 0x80;
+}
+
+/* The next word of a name: letters of one case, or a capital and small ones. Returns what follows; NULL at the end. */
+static const char *next_word(const char *at, char word[32])
+{
+    size_t n = 0;
+    while (*at && !is_letter((unsigned char)*at))
+        at++;
+    if (!*at)
+        return NULL;
+    for (; is_letter((unsigned char)*at); at++) {
+        const int begins = isupper((unsigned char)at[0]) && n > 0 &&
+                           (islower((unsigned char)at[-1]) || islower((unsigned char)at[1]));
+        if (begins)
+            break;
+        if (n < 31)
+            word[n++] = (char)tolower((unsigned char)*at);
+    }
+    word[n] = '\0';
+    return at;
+}
+
+static int has_word(const char *name, const char *const *words)
+{
+    char word[32];
+    while ((name = next_word(name, word)))
+        for (int k = 0; words[k]; k++)
+            if (strcmp(word, words[k]) == 0)
+                return 1;
+    return 0;
+}
+
+/* ---- what is seen ---- */
+
+typedef struct Object {
+    signed char floor, wall; /* by its names: 1, or -1 where they say something else */
+    unsigned char passes;    /* rays go through it */
+    double low[3], high[3];
+} Object;
+
+typedef struct Plane {
+    double point[3], normal[3]; /* of a face; the normal towards the eye */
+    double tolerance;
+    double seen;  /* share of the view */
+    double area;  /* of all that lies in it, by the square of a metre */
+    double named; /* -1 to 1, by that area */
+    double low[3], high[3];
+    double score;
+} Plane;
+
+typedef struct Search {
+    const Sense *sense;
+    const SpaceTriangles *triangles;
+    Object *objects;
+    double eye[3], low[3], high[3], metre;
+    int count; /* of what is seen */
+    SpaceHit *hits;
+    Plane planes[MOST_PLANES];
+    int nplanes;
+} Search;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void subtract(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[k] - b[k];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* Its corners, its normal of unit length; returns its area. */
+static double triangle_at(const SpaceTriangles *t, size_t number, double corners[3][3], double normal[3])
+{
+    double a[3], b[3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            corners[i][k] = (double)t->vertices[t->corners[number][i]][k];
+    subtract(corners[1], corners[0], a), subtract(corners[2], corners[0], b);
+    cross(a, b, normal);
+    const double length = sqrt(dot(normal, normal));
+    for (int k = 0; k < 3; k++)
+        normal[k] /= length > 0 ? length : 1;
+    return length / 2;
+}
+
+/* Rays through the view, of the shape of the picture. */
+static void see(Search *s, const double target[3], double angle)
+{
+    double ahead[3], right[3], up[3];
+    const unsigned char *passes = NULL;
+    unsigned char *list = malloc((size_t)s->sense->nobjects + 1);
+    subtract(target, s->eye, ahead);
+    const double length = sqrt(dot(ahead, ahead)), half = tan(fmin(fmax(angle, 1), 170) / 2 * PI / 180);
+    for (int k = 0; k < 3; k++)
+        ahead[k] /= length > 0 ? length : 1;
+    cross(fabs(ahead[1]) < 0.999 ? (double[3]){0, 1, 0} : (double[3]){0, 0, 1}, ahead, right);
+    const double wide = sqrt(dot(right, right));
+    for (int k = 0; k < 3; k++)
+        right[k] /= wide;
+    cross(ahead, right, up);
+    for (uint32_t i = 0; list && i < s->sense->nobjects; i++)
+        list[i] = s->objects[i].passes, passes = list;
+    for (int i = 0; i < RAYS; i++) {
+        const int at = (int)((long)i * STRIDE % RAYS);
+        const double u = (2 * (at % ACROSS + 0.5) / ACROSS - 1) * half,
+                     v = (1 - 2 * (at / ACROSS + 0.5) / DOWN) * half * DOWN / ACROSS;
+        double direction[3];
+        for (int k = 0; k < 3; k++)
+            direction[k] = ahead[k] + u * right[k] + v * up[k];
+        s->count += space_ray_through(s->sense->space, s->eye, direction, passes, &s->hits[s->count]);
+    }
+    free(list);
+}
+
+/* ---- planes ---- */
+
+/* As the renderer's /level. */
+static int is_on(const Search *s, const Plane *plane, size_t triangle)
+{
+    double corners[3][3], normal[3], from[3];
+    triangle_at(s->triangles, triangle, corners, normal);
+    if (fabs(dot(normal, plane->normal)) < FLAT)
+        return 0;
+    for (int i = 0; i < 3; i++) {
+        subtract(corners[i], plane->point, from);
+        if (fabs(dot(from, plane->normal)) > plane->tolerance)
+            return 0;
+    }
+    return 1;
+}
+
+static Plane plane_of(const Search *s, const SpaceHit *hit)
+{
+    const Object *object = &s->objects[hit->tag];
+    double corners[3][3], size[3], all[3];
+    Plane plane = {.score = 0};
+    triangle_at(s->triangles, hit->triangle, corners, plane.normal);
+    for (int k = 0; k < 3; k++) {
+        plane.point[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
+        plane.normal[k] *= hit->is_front ? 1 : -1;
+    }
+    subtract(object->high, object->low, size), subtract(s->high, s->low, all);
+    plane.tolerance = fmin(sqrt(dot(size, size)) / 100, sqrt(dot(all, all)) / 200);
+    return plane;
+}
+
+static void find_planes(Search *s)
+{
+    for (int i = 0; i < s->count; i++) {
+        const double up = fabs(s->hits[i].normal[1]);
+        int k = 0;
+        if (up < FLAT && up > UPRIGHT)
+            continue;
+        while (k < s->nplanes && !is_on(s, &s->planes[k], s->hits[i].triangle))
+            k++;
+        if (k == MOST_PLANES)
+            continue;
+        if (k == s->nplanes)
+            s->planes[s->nplanes++] = plane_of(s, &s->hits[i]);
+        s->planes[k].seen += 1.0 / RAYS;
+    }
+}
+
+static int is_level(const Plane *plane)
+{
+    return fabs(plane->normal[1]) > FLAT;
+}
+
+/* Over all that lies in it. */
+static void measure(const Search *s, Plane *plane)
+{
+    double corners[3][3], normal[3], named = 0;
+    for (int k = 0; k < 3; k++)
+        plane->low[k] = INFINITY, plane->high[k] = -INFINITY;
+    plane->area = 0;
+    for (size_t i = 0; i < s->triangles->ntriangles; i++) {
+        if (s->objects[s->triangles->tags[i]].passes || !is_on(s, plane, i))
+            continue;
+        const double area = triangle_at(s->triangles, i, corners, normal);
+        const Object *object = &s->objects[s->triangles->tags[i]];
+        plane->area += area / (s->metre * s->metre);
+        named += area / (s->metre * s->metre) * (is_level(plane) ? object->floor : object->wall);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) {
+                plane->low[k] = fmin(plane->low[k], corners[c][k]);
+                plane->high[k] = fmax(plane->high[k], corners[c][k]);
+            }
+    }
+    plane->named = plane->area > 0 ? named / plane->area : 0;
+}
+
+/* The same plane by its largest face that is seen, whose middle is surely of it. */
+static void settle(const Search *s, Plane *plane)
+{
+    double corners[3][3], normal[3], largest = 0;
+    Plane best = *plane;
+    for (int i = 0; i < s->count; i++) {
+        const double area = triangle_at(s->triangles, s->hits[i].triangle, corners, normal);
+        if (area <= largest || !is_on(s, plane, s->hits[i].triangle))
+            continue;
+        largest = area;
+        best = plane_of(s, &s->hits[i]);
+    }
+    best.seen = 0, best.score = plane->score;
+    for (int i = 0; i < s->count; i++)
+        best.seen += is_on(s, &best, s->hits[i].triangle) / (double)RAYS;
+    *plane = best;
+    measure(s, plane);
+}
+
+/* ---- floors ---- */
+
+/* How much stands around, at the height of the chest, and whether one could stand there: in the mean of places that are
+ * seen. metre: of this plane. */
+static void look_around(const Search *s, const Plane *plane, double metre, double *around, double *free_above)
+{
+    enum { PLACES = 24, WAYS = 16 };
+    int places = 0, walls = 0, open = 0;
+    for (int i = 0; i < s->count && places < PLACES; i++) {
+        const SpaceHit *hit = &s->hits[i];
+        SpaceHit other;
+        if (!is_on(s, plane, hit->triangle))
+            continue;
+        const double from[3] = {hit->point[0], hit->point[1] + 1.1 * metre, hit->point[2]}, up[3] = {0, 1, 0};
+        const double above[3] = {hit->point[0], hit->point[1] + 0.02 * metre, hit->point[2]};
+        places++;
+        open += !space_ray(s->sense->space, above, up, 0, 1.6 * metre, &other);
+        for (int k = 0; k < WAYS; k++) {
+            const double a = 2 * PI * (k + 0.37) / WAYS, way[3] = {cos(a), 0, sin(a)};
+            walls += space_ray(s->sense->space, from, way, 0, INFINITY, &other);
+        }
+    }
+    *around = places ? (double)walls / (places * WAYS) : 0;
+    *free_above = places ? (double)open / places : 0;
+}
+
+/* The share of what is seen that lies below it, under its bounds. */
+static double share_below(const Search *s, const Plane *plane, double metre)
+{
+    int below = 0;
+    for (int i = 0; i < s->count; i++) {
+        const double *p = s->hits[i].point;
+        below += p[1] < plane->point[1] - 0.25 * metre && p[0] > plane->low[0] && p[0] < plane->high[0] &&
+                 p[2] > plane->low[2] && p[2] < plane->high[2];
+    }
+    return s->count ? (double)below / s->count : 0;
+}
+
+static double floor_score(const Search *s, const Plane *plane)
+{
+    const Room *room = &s->sense->room;
+    const double above = s->high[1] - plane->point[1];
+    /* models of rooms are small sometimes */
+    const double metre = fmin(s->metre, above / 2.4), area = plane->area * s->metre * s->metre / (metre * metre);
+    double around, free_above;
+    if (plane->point[1] >= s->eye[1] || !(metre > 0) || plane->seen < 0.004 || area < 1.5)
+        return 0;
+    look_around(s, plane, metre, &around, &free_above);
+    const double below = share_below(s, plane, metre);
+    if (around < 0.3 || free_above < 0.3 || below > 0.3)
+        return 0;
+    const int is_known = room->is_found && fabs(plane->point[1] - room->floor) < 0.03 * room->height;
+    return sqrt(area * plane->seen) * around * free_above * (1 - 2 * below) * (is_known ? 2 : 1) *
+           exp2(1.5 * plane->named);
+}
+
+/* ---- walls ---- */
+
+/* The share of what is seen that is behind it. */
+static double share_behind(const Search *s, const Plane *plane)
+{
+    int behind = 0;
+    for (int i = 0; i < s->count; i++) {
+        double from[3];
+        subtract(s->hits[i].point, plane->point, from);
+        behind += dot(from, plane->normal) < -0.1 * s->metre;
+    }
+    return s->count ? (double)behind / s->count : 0;
+}
+
+/* ground: the floor's height. */
+static double wall_score(const Search *s, const Plane *plane, double ground)
+{
+    const double above = s->high[1] - ground, metre = fmin(s->metre, above / 2.4);
+    const double wide = hypot(plane->high[0] - plane->low[0], plane->high[2] - plane->low[2]);
+    const double tall = plane->high[1] - fmax(plane->low[1], ground);
+    const double behind = share_behind(s, plane);
+    if (plane->seen < 0.004 || tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
+        return 0;
+    return plane->seen * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) * exp2(1.5 * plane->named);
+}
+
+/* ---- the whole ---- */
+
+typedef struct Naming {
+    Search *search;
+    uint32_t object;
+} Naming;
+
+static int said(const char *node, const char *mesh, const char *material, const char *const *words,
+                const char *const *others)
+{
+    if (has_word(node, others) || has_word(mesh, others) || has_word(material, others))
+        return has_word(material, words) && !has_word(material, others) ? 1 : -1;
+    return has_word(node, words) || has_word(mesh, words) || has_word(material, words);
+}
+
+static void name_objects(Import *import, const struct aiNode *node, const Affine *world, void *context)
+{
+    Naming *naming = context;
+    const Affine placed = affine_mirror_z(world);
+    for (unsigned i = 0; i < node->mNumMeshes && affine_is_finite(&placed); i++) {
+        const unsigned index = node->mMeshes[i];
+        const struct aiMesh *mesh = index < import->scene->mNumMeshes ? import->scene->mMeshes[index] : NULL;
+        if (!mesh || naming->object >= naming->search->sense->nobjects)
+            continue;
+        Object *object = &naming->search->objects[naming->object++];
+        const ImportMaterial *material = &import->materials[mesh->mMaterialIndex];
+        object->floor = (signed char)said(node->mName.data, mesh->mName.data, material->name, floor_words, no_floor_words);
+        object->wall = (signed char)said(node->mName.data, mesh->mName.data, material->name, wall_words, no_wall_words);
+        object->passes = (unsigned char)material->is_clear;
+    }
+}
+
+static void find_bounds(Search *s)
+{
+    const SpaceTriangles *t = s->triangles;
+    for (uint32_t i = 0; i < s->sense->nobjects; i++)
+        for (int k = 0; k < 3; k++)
+            s->objects[i].low[k] = INFINITY, s->objects[i].high[k] = -INFINITY;
+    for (size_t i = 0; i < 3 * t->ntriangles; i++) {
+        const float *v = t->vertices[t->corners[i / 3][i % 3]];
+        Object *object = &s->objects[t->tags[i / 3]];
+        for (int k = 0; k < 3; k++) {
+            object->low[k] = fmin(object->low[k], (double)v[k]);
+            object->high[k] = fmax(object->high[k], (double)v[k]);
+        }
+    }
+    space_bounds(s->sense->space, s->low, s->high);
+}
+
+static Plane *best_of(Search *s)
+{
+    Plane *best = NULL;
+    for (int i = 0; i < s->nplanes; i++)
+        if (s->planes[i].score > (best ? best->score : 0))
+            best = &s->planes[i];
+    return best;
+}
+
+static void offer(Import *import, FILE *out, const char *name, const Plane *plane, int *any)
+{
+    const double scale = import->sense->scale;
+    char selector[96];
+    snprintf(selector, sizeof selector, "@%.7g:%.7g:%.7g/level", plane->point[0] * scale, plane->point[1] * scale,
+             plane->point[2] * scale);
+    fprintf(out, "%s  \"%s\" \"%s\" // %.0f %% of the view\n",
+            *any ? "" : "// ---- surfaces that are ready: retex-render -t Floor -t Wall ----\n\n"
+                        "#ifdef (Retex) global_settings { retex_targets {\n",
+            name, selector, 100 * plane->seen);
+    import_tell(import, IMPORT_TARGET, "%s\t%s\t%.1f %%", name, selector, 100 * plane->seen);
+    *any = 1;
+}
+
+static void write_found(Import *import, Search *s, FILE *out)
+{
+    int any = 0;
+    double ground = s->sense->room.is_found ? s->sense->room.floor : s->low[1];
+    for (int i = 0; i < s->nplanes; i++)
+        if (is_level(&s->planes[i]))
+            measure(s, &s->planes[i]), s->planes[i].score = floor_score(s, &s->planes[i]);
+    Plane *found = best_of(s);
+    if (!found && !s->sense->room.is_closed)
+        return;
+    if (found) {
+        settle(s, found);
+        ground = found->point[1];
+        offer(import, out, "Floor", found, &any);
+    }
+    for (int i = 0; i < s->nplanes; i++) {
+        s->planes[i].score = 0;
+        if (!is_level(&s->planes[i]))
+            measure(s, &s->planes[i]), s->planes[i].score = wall_score(s, &s->planes[i], ground);
+    }
+    if ((found = best_of(s))) {
+        settle(s, found);
+        offer(import, out, "Wall", found, &any);
+    }
+    if (any)
+        fprintf(out, "} } #end\n\n");
+}
+
+int targets_write(Import *import, FILE *out, RetexError *err)
+{
+    const Sense *sense = import->sense;
+    double target[3];
+    if (!sense || !sense->space)
+        return RETEX_OK;
+    Search *s = calloc(1, sizeof *s);
+    if (s)
+        *s = (Search){.sense = sense,
+                      .triangles = space_triangles(sense->space),
+                      .objects = calloc((size_t)sense->nobjects + 1, sizeof *s->objects),
+                      .hits = malloc((RAYS + 1) * sizeof *s->hits),
+                      .metre = sense->room.metre > 0 ? sense->room.metre : 1 / sense->scale};
+    Naming naming = {s, 0};
+    const int is_made = s && s->objects && s->hits && import_visit_nodes(import, name_objects, &naming);
+    if (is_made) {
+        for (int k = 0; k < 3; k++)
+            s->eye[k] = import->eye[k] / sense->scale, target[k] = import->target[k] / sense->scale;
+        find_bounds(s);
+        see(s, target, import->angle);
+        find_planes(s);
+        write_found(import, s, out);
+    }
+    if (s)
+        free(s->objects), free(s->hits);
+    free(s);
+    return is_made ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");
+}
