@@ -267,7 +267,7 @@ static double tolerance(const Primitive *p, double scene_size)
 {
     Vec3 low, high;
     const double own = shape_bounds(p, &low, &high) ? diagonal(low, high) : INFINITY;
-    const double least = fmin(own / 100, scene_size / 200);
+    const double least = fmin(own / 100, scene_size / 2000);
     return isfinite(least) ? least : 1e-3;
 }
 

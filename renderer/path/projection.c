@@ -182,30 +182,54 @@ static size_t half_hull(const Vec2 *points, size_t count, int upper, Vec2 *hull)
     return n;
 }
 
-/* Of equally long edges the one that is next to the first axis. */
-static void longest_edge(const Vec2 *hull, size_t count, Vec2 *longest)
+/* How far points reach along a direction. */
+static double extent(const Vec2 *points, size_t count, Vec2 along)
 {
-    for (size_t k = 0; k + 1 < count; k++) {
-        const Vec2 edge = {hull[k + 1].u - hull[k].u, hull[k + 1].v - hull[k].v};
-        const double length = hypot(edge.u, edge.v), best = hypot(longest->u, longest->v);
-        if (length > best * (1 + 1e-6) || (length > best * (1 - 1e-6) && fabs(edge.u) > fabs(longest->u)))
-            *longest = edge;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < count; k++) {
+        const double at = points[k].u * along.u + points[k].v * along.v;
+        low = fmin(low, at), high = fmax(high, at);
     }
+    return high - low;
 }
 
-/* The direction of u on a floor: along its longest edge, to the right. */
+/* The longer side of the smallest rectangle around a hull, one of whose sides lies along an edge: the direction of the
+ * walls, also where a floor has bays and corners. Of equal ones the one next to the first axis. */
+static Vec2 main_direction(const Vec2 *hull, size_t count)
+{
+    Vec2 best = {0, 0};
+    double smallest = INFINITY;
+    const size_t step = count / 1024 + 1; /* of what is round, edges far apart are enough */
+    for (size_t k = 0; k + 1 < count; k += step) {
+        const double u = hull[k + 1].u - hull[k].u, v = hull[k + 1].v - hull[k].v, length = hypot(u, v);
+        if (!(length > 0))
+            continue;
+        Vec2 along = {u / length, v / length}, beside = {-v / length, u / length};
+        const double wide = extent(hull, count, along), deep = extent(hull, count, beside), area = wide * deep;
+        const int is_square = fabs(wide - deep) <= 1e-6 * wide;
+        if (is_square ? fabs(beside.u) > fabs(along.u) : deep > wide)
+            along = beside;
+        if (area < smallest * (1 - 1e-6) || (area < smallest * (1 + 1e-6) && fabs(along.u) > fabs(best.u)))
+            best = along, smallest = fmin(area, smallest);
+    }
+    return best;
+}
+
+/* The direction of u on a floor: along the longer side of its outline, to the right. */
 static int along_floor(const Scene *scene, int target, Vec3 normal, Vec3 *u)
 {
     const Vec3 s = vec_normalize(vec_mad(vec3(1, 0, 0), normal, -normal.x));
     Outline o = {.s = s, .t = vec_cross(s, normal)};
     Vec2 longest = {0, 0};
+    size_t count = 0;
     visit_faces(scene, target, add_outline, &o);
-    Vec2 *hull = malloc((o.count + 1) * sizeof *hull);
+    Vec2 *hull = malloc((2 * o.count + 1) * sizeof *hull);
     const int made = hull && !o.failed;
     if (made && o.count > 1) {
         qsort(o.points, o.count, sizeof *o.points, compare_points);
         for (int upper = 0; upper < 2; upper++)
-            longest_edge(hull, half_hull(o.points, o.count, upper, hull), &longest);
+            count += half_hull(o.points, o.count, upper, hull + count);
+        longest = main_direction(hull, count);
     }
     const double length = hypot(longest.u, longest.v), right = length * 1e-6;
     if (length > 0 && (longest.u < -right || (longest.u <= right && longest.v < 0)))

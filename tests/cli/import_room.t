@@ -49,6 +49,7 @@ $ retex-import -f room_cm.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/fro
 > retex-import: other views: View_2 from inside, View_3 from inside, View_4 from inside; --camera of retex-render takes one
 > retex-import: no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
+> retex-import: targets that are ready: Floor, Wall; -t of retex-render takes them by name
 > retex-import: wrote x/x.pov
 $ retex-import -f room_z.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from A to B/'
 > retex-import: the model stands on its xy plane: z is taken as up; --up y overrides
@@ -56,6 +57,7 @@ $ retex-import -f room_z.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from
 > retex-import: other views: View_2 from inside, View_3 from inside, View_4 from inside; --camera of retex-render takes one
 > retex-import: no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
+> retex-import: targets that are ready: Floor, Wall; -t of retex-render takes them by name
 > retex-import: wrote x/x.pov
 $ retex-import -f doubled.obj -o x 2>&1 | grep ' lie'
 > retex-import: 60 faces lie on others of the same corners: one of each is kept

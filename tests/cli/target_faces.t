@@ -124,7 +124,7 @@ $ for o in '-t A=@4:3/flat' '-t A=#1/level:1' '-t A=#1:uv=round' '-t A=#1:uv=' '
 ! retex-render: error: no target `A`: the scene uses no declared texture or object
 ! retex-render: error: target `#1:uv=box`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
 ! retex-render: error: lamp `#1/flat:1`: a lamp is a whole object or material, not some of its faces
-! retex-render: error: target `@4:3/wall`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `@4:3/wall`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; or after either /material, /object, /flat or /level
 = 2
 # The list has what each form takes, and tells an atlas and baked light.
 $ for s in room boards; do

@@ -190,7 +190,7 @@ static Plane plane_of(const Search *s, const SpaceHit *hit)
         plane.normal[k] *= hit->is_front ? 1 : -1;
     }
     subtract(object->high, object->low, size), subtract(s->high, s->low, all);
-    plane.tolerance = fmin(sqrt(dot(size, size)) / 100, sqrt(dot(all, all)) / 200);
+    plane.tolerance = fmin(sqrt(dot(size, size)) / 100, sqrt(dot(all, all)) / 2000);
     return plane;
 }
 
@@ -334,10 +334,11 @@ static double wall_score(const Search *s, const Plane *plane, double ground)
     const double above = s->high[1] - ground, metre = fmin(s->metre, above / 2.4);
     const double wide = hypot(plane->high[0] - plane->low[0], plane->high[2] - plane->low[2]);
     const double tall = plane->high[1] - fmax(plane->low[1], ground);
+    const int stands = plane->low[1] < ground + 0.35 * metre;
     const double behind = share_behind(s, plane);
     if (plane->seen < 0.004 || tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
         return 0;
-    return plane->seen * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) * exp2(1.5 * plane->named);
+    return plane->seen * (stands ? 1 : 0.3) * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) * exp2(1.5 * plane->named);
 }
 
 /* ---- the whole ---- */
@@ -415,6 +416,7 @@ static void offer(Import *import, FILE *out, const char *name, const Plane *plan
 static void write_found(Import *import, Search *s, FILE *out)
 {
     int any = 0;
+    Plane floor = {.area = 0};
     double ground = s->sense->room.is_found ? s->sense->room.floor : s->low[1];
     for (int i = 0; i < s->nplanes; i++)
         if (is_level(&s->planes[i]))
@@ -424,15 +426,17 @@ static void write_found(Import *import, Search *s, FILE *out)
         return;
     if (found) {
         settle(s, found);
-        ground = found->point[1];
-        offer(import, out, "Floor", found, &any);
+        ground = found->point[1], floor = *found;
     }
     for (int i = 0; i < s->nplanes; i++) {
         s->planes[i].score = 0;
         if (!is_level(&s->planes[i]))
             measure(s, &s->planes[i]), s->planes[i].score = wall_score(s, &s->planes[i], ground);
     }
-    if ((found = best_of(s))) {
+    found = best_of(s);
+    if (floor.area > 0 && (found || s->sense->room.is_closed)) /* a lawn is no floor */
+        offer(import, out, "Floor", &floor, &any);
+    if (found) {
         settle(s, found);
         offer(import, out, "Wall", found, &any);
     }
