@@ -66,7 +66,7 @@ $ retex-combine -q number.exr --texture 'A=rgb(.1,.9,.5)' -o new.exr
 $ retex-render -q --size 16x16 --spp 4 -t 'A=@0:0/object,#4.2' --replace 'A=rgb(.1,.9,.5)' room.pov -o again.exr
 $ retex-diff --fail-psnr 75 new.exr again.exr >/dev/null
 # Nothing matches: one line each, with what is near.
-$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '@1:2/wall' '@1:2/' '#1/flat' '#1/flat:7' \
+$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3:4' '@1:2/wall' '@1:2/' '#1/flat' '#1/flat:7' \
 +     '#1/level:0' '#1.1/flat:1' '#1/material:1' '~rgb(.8,.3,.2)' '~rgb(1,2)' '~red' '~rde' room.pov:11 hall.pov:7 \
 +     '*oak.png' Pin '#1,' ',#1' '#1,~rgb(1,1,1)'; do
 +     retex-render -q --size 8x8 -t "A=$t" room.pov -o b.exr
@@ -106,10 +106,10 @@ $ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '@1:2/wall' '
 ! retex-render: error: no texture `#1.1`: the parts of object #1 have 0 of their own
 ! retex-render: error: no texture `#4.3`: the parts of object #4 have 2 of their own
 ! retex-render: error: pixel @8:0 does not lie inside the picture of 8x8
-! retex-render: error: target `@1`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
-! retex-render: error: target `@1:2:3`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
-! retex-render: error: target `@1:2/wall`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
-! retex-render: error: target `@1:2/`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `@1`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; or after either /material, /object, /flat or /level
+! retex-render: error: target `@1:2:3:4`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; or after either /material, /object, /flat or /level
+! retex-render: error: target `@1:2/wall`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; or after either /material, /object, /flat or /level
+! retex-render: error: target `@1:2/`: expected @X:Y, a pixel of the picture, or @X:Y:Z, a point of the scene; or after either /material, /object, /flat or /level
 ! retex-render: error: target `#1/flat`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
 ! retex-render: error: no face `#1/flat:7`: object #1 has 6
 ! retex-render: error: target `#1/level:0`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE

@@ -14,6 +14,7 @@
 #include "import/sense/sense.h"
 #include "import/space/space.h"
 
+#define SEEN 0.004     /* share of the view from which on it counts */
 enum { ACROSS = 112, DOWN = 84, RAYS = ACROSS * DOWN, MOST_PLANES = 96, STRIDE = 2477 /* no divisor of RAYS */ };
 #define FLAT 0.9848    /* cosine of 10 degrees, as /level has it */
 #define UPRIGHT 0.1736 /* its sine */
@@ -87,10 +88,14 @@ typedef struct Plane {
     double area;  /* of all that lies in it, by the square of a metre */
     double named; /* -1 to 1, by that area */
     double low[3], high[3];
+    uint32_t material; /* of its largest face that is seen, once it is settled */
     double score;
 } Plane;
 
+enum { SELECTOR_SIZE = 96 };
+
 typedef struct Search {
+    Import *import;
     const Sense *sense;
     const SpaceTriangles *triangles;
     Object *objects;
@@ -167,16 +172,16 @@ static void see(Search *s, const double target[3], double angle)
 /* As the renderer's /level. */
 static int is_on(const Search *s, const Plane *plane, size_t triangle)
 {
-    double corners[3][3], normal[3], from[3];
-    triangle_at(s->triangles, triangle, corners, normal);
-    if (fabs(dot(normal, plane->normal)) < FLAT)
-        return 0;
+    double corners[3][3], normal[3];
     for (int i = 0; i < 3; i++) {
-        subtract(corners[i], plane->point, from);
+        const float *at = s->triangles->vertices[s->triangles->corners[triangle][i]];
+        const double from[3] = {(double)at[0] - plane->point[0], (double)at[1] - plane->point[1],
+                                (double)at[2] - plane->point[2]};
         if (fabs(dot(from, plane->normal)) > plane->tolerance)
             return 0;
     }
-    return 1;
+    triangle_at(s->triangles, triangle, corners, normal);
+    return fabs(dot(normal, plane->normal)) >= FLAT;
 }
 
 static Plane plane_of(const Search *s, const SpaceHit *hit)
@@ -239,19 +244,30 @@ static void measure(const Search *s, Plane *plane)
     plane->named = plane->area > 0 ? named / plane->area : 0;
 }
 
+static void measure_all(Search *s, int level)
+{
+    for (int i = 0; i < s->nplanes; i++) {
+        s->planes[i].score = 0;
+        if (is_level(&s->planes[i]) == level && s->planes[i].seen >= SEEN)
+            measure(s, &s->planes[i]);
+    }
+}
+
 /* The same plane by its largest face that is seen, whose middle is surely of it. */
 static void settle(const Search *s, Plane *plane)
 {
     double corners[3][3], normal[3], largest = 0;
     Plane best = *plane;
+    uint32_t material = 0;
     for (int i = 0; i < s->count; i++) {
         const double area = triangle_at(s->triangles, s->hits[i].triangle, corners, normal);
         if (area <= largest || !is_on(s, plane, s->hits[i].triangle))
             continue;
         largest = area;
         best = plane_of(s, &s->hits[i]);
+        material = s->sense->materials[s->hits[i].tag];
     }
-    best.seen = 0, best.score = plane->score;
+    best.seen = 0, best.material = material, best.score = plane->score;
     for (int i = 0; i < s->count; i++)
         best.seen += is_on(s, &best, s->hits[i].triangle) / (double)RAYS;
     *plane = best;
@@ -303,7 +319,7 @@ static double floor_score(const Search *s, const Plane *plane)
     /* models of rooms are small sometimes */
     const double metre = fmin(s->metre, above / 2.4), area = plane->area * s->metre * s->metre / (metre * metre);
     double around, free_above;
-    if (plane->point[1] >= s->eye[1] || !(metre > 0) || plane->seen < 0.004 || area < 1.5)
+    if (plane->point[1] >= s->eye[1] || !(metre > 0) || area < 1.5)
         return 0;
     look_around(s, plane, metre, &around, &free_above);
     const double below = share_below(s, plane, metre);
@@ -336,7 +352,7 @@ static double wall_score(const Search *s, const Plane *plane, double ground)
     const double tall = plane->high[1] - fmax(plane->low[1], ground);
     const int stands = plane->low[1] < ground + 0.35 * metre;
     const double behind = share_behind(s, plane);
-    if (plane->seen < 0.004 || tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
+    if (tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
         return 0;
     return plane->seen * (stands ? 1 : 0.3) * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) * exp2(1.5 * plane->named);
 }
@@ -399,49 +415,114 @@ static Plane *best_of(Search *s)
     return best;
 }
 
-static void offer(Import *import, FILE *out, const char *name, const Plane *plane, int *any)
+/* A selector's text: a point of a plane. */
+static int print_plane(const Search *s, const Plane *plane, char text[SELECTOR_SIZE])
 {
-    const double scale = import->sense->scale;
-    char selector[96];
-    snprintf(selector, sizeof selector, "@%.7g:%.7g:%.7g/level", plane->point[0] * scale, plane->point[1] * scale,
-             plane->point[2] * scale);
-    fprintf(out, "%s  \"%s\" \"%s\" // %.0f %% of the view\n",
-            *any ? "" : "// ---- surfaces that are ready: retex-render -t Floor -t Wall ----\n\n"
-                        "#ifdef (Retex) global_settings { retex_targets {\n",
-            name, selector, 100 * plane->seen);
-    import_tell(import, IMPORT_TARGET, "%s\t%s\t%.1f %%", name, selector, 100 * plane->seen);
-    *any = 1;
+    const double scale = s->sense->scale;
+    return snprintf(text, SELECTOR_SIZE, "@%.7g:%.7g:%.7g/level", plane->point[0] * scale, plane->point[1] * scale,
+                    plane->point[2] * scale);
 }
 
-static void write_found(Import *import, Search *s, FILE *out)
+static void offer(const Search *s, FILE *out, const char *name, const char *selector, double seen)
 {
-    int any = 0;
-    Plane floor = {.area = 0};
-    double ground = s->sense->room.is_found ? s->sense->room.floor : s->low[1];
-    for (int i = 0; i < s->nplanes; i++)
-        if (is_level(&s->planes[i]))
-            measure(s, &s->planes[i]), s->planes[i].score = floor_score(s, &s->planes[i]);
-    Plane *found = best_of(s);
-    if (!found && !s->sense->room.is_closed)
+    fprintf(out, "\n  \"%s\" \"%s\" // %.0f %% of the view", name, selector, 100 * seen);
+    import_tell(s->import, IMPORT_TARGET, "%s\t%s\t%.1f %%", name, selector, 100 * seen);
+}
+
+/* With its grooves: what is made of the same a little below, between boards and tiles. */
+static void offer_floor(const Search *s, const Plane *plane, FILE *out)
+{
+    enum { MOST_GROOVES = 2 };
+    char text[(MOST_GROOVES + 1) * SELECTOR_SIZE];
+    double seen = plane->seen;
+    int length = print_plane(s, plane, text), count = 0;
+    for (int i = 0; i < s->nplanes && count < MOST_GROOVES; i++) {
+        Plane groove = s->planes[i];
+        const double depth = plane->point[1] - groove.point[1];
+        if (!is_level(&groove) || groove.seen < SEEN || depth <= plane->tolerance || depth > 0.03 * s->metre)
+            continue;
+        settle(s, &groove);
+        if (groove.material != plane->material)
+            continue;
+        text[length++] = ',';
+        length += print_plane(s, &groove, text + length);
+        seen += groove.seen, count++;
+    }
+    offer(s, out, "Floor", text, seen);
+}
+
+/* All walls, if they have a material that little else is made of. Boxes give it UV in metres. */
+static void offer_walls(const Search *s, const Plane *wall, FILE *out)
+{
+    const ImportMaterial *material = &s->import->materials[wall->material];
+    char text[NAME_SIZE + 8];
+    int of = 0, on_walls = 0;
+    for (int i = 0; i < s->count; i++) {
+        if (s->sense->materials[s->hits[i].tag] != wall->material)
+            continue;
+        of++;
+        for (int k = 0; k < s->nplanes; k++)
+            if (s->planes[k].score > 0 && is_on(s, &s->planes[k], s->hits[i].triangle)) {
+                on_walls++;
+                break;
+            }
+    }
+    if (on_walls < 0.85 * of || on_walls < 1.2 * wall->seen * RAYS)
         return;
-    if (found) {
-        settle(s, found);
-        ground = found->point[1], floor = *found;
+    snprintf(text, sizeof text, "%s:uv=box", material->name);
+    offer(s, out, "Walls", text, (double)of / RAYS);
+}
+
+/* Returns whether there is one. */
+static int find_floor(Search *s, Plane *found)
+{
+    measure_all(s, 1);
+    for (int i = 0; i < s->nplanes; i++)
+        if (is_level(&s->planes[i]) && s->planes[i].seen >= SEEN)
+            s->planes[i].score = floor_score(s, &s->planes[i]);
+    const Plane *best = best_of(s);
+    if (!best)
+        return 0;
+    *found = *best;
+    settle(s, found);
+    return 1;
+}
+
+static int find_wall(Search *s, double ground, Plane *found)
+{
+    measure_all(s, 0);
+    for (int i = 0; i < s->nplanes; i++)
+        if (!is_level(&s->planes[i]) && s->planes[i].seen >= SEEN)
+            s->planes[i].score = wall_score(s, &s->planes[i], ground);
+    const Plane *best = best_of(s);
+    if (!best)
+        return 0;
+    *found = *best;
+    settle(s, found);
+    return 1;
+}
+
+/* A lawn without walls is no floor, and what stands on none is no wall, but where a room is all around. */
+static void write_found(Search *s, FILE *out)
+{
+    const Room *room = &s->sense->room;
+    Plane floor, wall;
+    const int has_floor = find_floor(s, &floor);
+    const double ground = has_floor ? floor.point[1] : room->is_found ? room->floor : s->low[1];
+    const int has_wall = (has_floor || room->is_closed) && find_wall(s, ground, &wall);
+    if (!has_wall && !(has_floor && room->is_closed))
+        return;
+    fprintf(out, "// ---- surfaces that are ready: retex-render -t Floor -t Wall ----\n\n"
+                 "#ifdef (Retex) global_settings { retex_targets {");
+    if (has_floor)
+        offer_floor(s, &floor, out);
+    if (has_wall) {
+        char text[SELECTOR_SIZE];
+        print_plane(s, &wall, text);
+        offer(s, out, "Wall", text, wall.seen);
+        offer_walls(s, &wall, out);
     }
-    for (int i = 0; i < s->nplanes; i++) {
-        s->planes[i].score = 0;
-        if (!is_level(&s->planes[i]))
-            measure(s, &s->planes[i]), s->planes[i].score = wall_score(s, &s->planes[i], ground);
-    }
-    found = best_of(s);
-    if (floor.area > 0 && (found || s->sense->room.is_closed)) /* a lawn is no floor */
-        offer(import, out, "Floor", &floor, &any);
-    if (found) {
-        settle(s, found);
-        offer(import, out, "Wall", found, &any);
-    }
-    if (any)
-        fprintf(out, "} } #end\n\n");
+    fprintf(out, "\n} } #end\n\n");
 }
 
 int targets_write(Import *import, FILE *out, RetexError *err)
@@ -452,7 +533,8 @@ int targets_write(Import *import, FILE *out, RetexError *err)
         return RETEX_OK;
     Search *s = calloc(1, sizeof *s);
     if (s)
-        *s = (Search){.sense = sense,
+        *s = (Search){.import = import,
+                      .sense = sense,
                       .triangles = space_triangles(sense->space),
                       .objects = calloc((size_t)sense->nobjects + 1, sizeof *s->objects),
                       .hits = malloc((RAYS + 1) * sizeof *s->hits),
@@ -465,7 +547,7 @@ int targets_write(Import *import, FILE *out, RetexError *err)
         find_bounds(s);
         see(s, target, import->angle);
         find_planes(s);
-        write_found(import, s, out);
+        write_found(s, out);
     }
     if (s)
         free(s->objects), free(s->hits);
