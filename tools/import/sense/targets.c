@@ -276,6 +276,20 @@ static void settle(const Search *s, Plane *plane)
 
 /* ---- floors ---- */
 
+/* The length of a metre where what is above the floor is lower than rooms are, as in models of toys. */
+static double small_metre(const Search *s, double above)
+{
+    return fmin(s->metre, above / 2.4);
+}
+
+/* Low, and as wide as the model: the seat of a sofa is not. */
+static int is_base(const Search *s, const Plane *plane)
+{
+    const double wide = plane->high[0] - plane->low[0], deep = plane->high[2] - plane->low[2];
+    return plane->point[1] - s->low[1] < 0.3 * (s->high[1] - s->low[1]) &&
+           wide * deep > 0.5 * (s->high[0] - s->low[0]) * (s->high[2] - s->low[2]);
+}
+
 /* How much stands around, at the height of the chest, and whether one could stand there: in the mean of places that are
  * seen. metre: of this plane. */
 static void look_around(const Search *s, const Plane *plane, double metre, double *around, double *free_above)
@@ -317,9 +331,11 @@ static double floor_score(const Search *s, const Plane *plane)
     const Room *room = &s->sense->room;
     const double above = s->high[1] - plane->point[1];
     /* models of rooms are small sometimes */
-    const double metre = fmin(s->metre, above / 2.4), area = plane->area * s->metre * s->metre / (metre * metre);
+    const double metre = small_metre(s, above), area = plane->area * s->metre * s->metre / (metre * metre);
     double around, free_above;
     if (plane->point[1] >= s->eye[1] || !(metre > 0) || area < 1.5)
+        return 0;
+    if (metre < 0.7 * s->metre && !is_base(s, plane))
         return 0;
     look_around(s, plane, metre, &around, &free_above);
     const double below = share_below(s, plane, metre);
@@ -347,7 +363,7 @@ static double share_behind(const Search *s, const Plane *plane)
 /* ground: the floor's height. */
 static double wall_score(const Search *s, const Plane *plane, double ground)
 {
-    const double above = s->high[1] - ground, metre = fmin(s->metre, above / 2.4);
+    const double metre = small_metre(s, s->high[1] - ground);
     const double wide = hypot(plane->high[0] - plane->low[0], plane->high[2] - plane->low[2]);
     const double tall = plane->high[1] - fmax(plane->low[1], ground);
     const int stands = plane->low[1] < ground + 0.35 * metre;
@@ -451,6 +467,19 @@ static void offer_floor(const Search *s, const Plane *plane, FILE *out)
     offer(s, out, "Floor", text, seen);
 }
 
+/* Of the area of a material. */
+static double upright_share(const Search *s, uint32_t material)
+{
+    double corners[3][3], normal[3], upright = 0, all = 0;
+    for (size_t i = 0; i < s->triangles->ntriangles; i++) {
+        if (s->sense->materials[s->triangles->tags[i]] != material)
+            continue;
+        const double area = triangle_at(s->triangles, i, corners, normal);
+        all += area, upright += fabs(normal[1]) < UPRIGHT ? area : 0;
+    }
+    return all > 0 ? upright / all : 0;
+}
+
 /* All walls, if they have a material that little else is made of. Boxes give it UV in metres. */
 static void offer_walls(const Search *s, const Plane *wall, FILE *out)
 {
@@ -467,7 +496,7 @@ static void offer_walls(const Search *s, const Plane *wall, FILE *out)
                 break;
             }
     }
-    if (on_walls < 0.85 * of || on_walls < 1.2 * wall->seen * RAYS)
+    if (upright_share(s, wall->material) < 0.8 || on_walls < 0.85 * of || on_walls < 1.2 * wall->seen * RAYS)
         return;
     snprintf(text, sizeof text, "%s:uv=box", material->name);
     offer(s, out, "Walls", text, (double)of / RAYS);
