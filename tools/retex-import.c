@@ -6,7 +6,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <limits.h>
 #include <math.h>
 #include <signal.h>
@@ -27,6 +26,7 @@
 #include "common/set_kind.h"
 #include "common/cli.h"
 #include "common/confine.h"
+#include "common/output_folder.h"
 #include "import/import.h"
 #include "import/look.h"
 #include "common/watchdog.h"
@@ -133,13 +133,6 @@ static char unfinished[PATH_MAX];
 static int unfinished_folder = -1;
 static _Atomic pid_t child;
 
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
-{
-    (void)info, (void)kind, (void)where;
-    remove(path);
-    return 0;
-}
-
 static void remove_unfinished(const char *why)
 {
     const pid_t pid = atomic_load(&child);
@@ -149,7 +142,7 @@ static void remove_unfinished(const char *why)
         waitpid(pid, NULL, 0);
     }
     if (unfinished[0])
-        nftw(unfinished, remove_entry, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+        output_remove_folder(unfinished);
 }
 
 _Noreturn static void give_up(const Cli *cli, const RetexError *err)

@@ -24,8 +24,8 @@ typedef struct Commands {
 } Commands;
 
 /* The order in which the list shows them; what is not here comes last, by name. */
-static const char *const order[] = {"import", "render", "denoise", "sample", "combine",
-                                    "pack",   "info",   "diff",    "serve",  "studio"};
+static const char *const order[] = {"try",    "import", "render", "denoise", "sample", "combine", "pack",
+                                    "info",   "diff",   "serve",  "studio"};
 static const int norder = sizeof order / sizeof *order;
 
 static Cli cli = {.tool = "retex"};

@@ -116,6 +116,11 @@ $(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
+TRY_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/try/*.c))
+$(BUILD)/bin/retex-try: $(BUILD)/obj/tools/retex-try.o $(TRY_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
+
 # retex-import alone uses Assimp, Draco and meshoptimizer. Draco's headers are of C++: one file of it. With Embree it looks
 # for rooms.
 EMBREE_CFLAGS = $(filter -DRETEX_EMBREE%,$(RENDER_CFLAGS))

@@ -10,6 +10,7 @@ $ retex
 > Change the textures of a rendered picture without rendering it again. The
 > commands are:
 >
+>   try      Make a web page of a model with another floor
 >   import   Make a scene of a model of another program
 >   render   Render a scene in POV-Ray's language into a set for retexturing
 >   denoise  Remove the noise from a set once, and so from all its retextures

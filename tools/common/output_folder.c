@@ -2,6 +2,8 @@
 #include "common/output_folder.h"
 
 #include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -114,4 +116,16 @@ int output_make_folders(const char *path, RetexError *err)
             return retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
     }
     return RETEX_OK;
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info, (void)kind, (void)where;
+    remove(path);
+    return 0;
+}
+
+void output_remove_folder(const char *path)
+{
+    nftw(path, remove_entry, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
 }

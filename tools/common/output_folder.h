@@ -13,5 +13,7 @@ int output_resolve(char real[PATH_MAX], int *missing, const char *path, const ch
 int output_is_below(const char *real, const char *folder);
 /* Create the missing folders of path. */
 int output_make_folders(const char *path, RetexError *err);
+/* Remove a folder and all in it that is of its file system; no link is followed. */
+void output_remove_folder(const char *path);
 
 #endif

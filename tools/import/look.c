@@ -16,6 +16,7 @@
 #include <retex/color.h>
 #include <retex/retex.h>
 
+#include "common/beside.h"
 #include "import/base/look_text.h"
 
 #define PICTURE ".look.exr"
@@ -48,17 +49,6 @@ typedef struct Seen {
 static void path_of(const LookParams *params, const char *name, const char *ending, char path[PATH_MAX])
 {
     snprintf(path, PATH_MAX, "/proc/self/fd/%d/%s%s", params->folder, name, ending);
-}
-
-static int find_renderer(char path[PATH_MAX])
-{
-    const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 16);
-    path[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(path, '/');
-    if (!slash)
-        return 0;
-    strcpy(slash + 1, "retex-render");
-    return access(path, X_OK) == 0;
 }
 
 _Noreturn static void become_renderer(const LookParams *params, const char *program, int errors)
@@ -113,7 +103,7 @@ static int render(const LookParams *params, RetexError *err)
     char program[PATH_MAX], why[WHY_SIZE];
     int ends[2], status = 0;
     pid_t ended;
-    if (!find_renderer(program))
+    if (!beside_program(program, "retex-render"))
         return retex_fail(err, RETEX_ENOTFOUND, "there is no retex-render beside retex-import");
     if (pipe2(ends, O_CLOEXEC) != 0)
         return retex_fail(err, RETEX_EIO, "no pipe: %s", strerror(errno));

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "common/beneath.h"
+#include "common/beside.h"
 
 typedef enum OptionKind { OPTION_FLAG, OPTION_VALUE, OPTION_OUTPUT } OptionKind;
 
@@ -111,11 +112,8 @@ static int add(Line *line, const char *word, RetexError *err)
 /* Programs stand beside this one. */
 static int add_program(Line *line, const char *tool, RetexError *err)
 {
-    char path[2 * PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
-    path[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(path, '/');
-    snprintf(slash ? slash + 1 : path, PATH_MAX, "%s", tool);
+    char path[PATH_MAX];
+    beside_program(path, tool);
     return add(line, path, err);
 }
 

@@ -1,0 +1,10 @@
+/* Programs that stand beside the one that runs. */
+#ifndef RETEX_BESIDE_H
+#define RETEX_BESIDE_H
+
+#include <limits.h>
+
+/* The path of a program. 0: there is none that can be run. */
+int beside_program(char path[PATH_MAX], const char *name);
+
+#endif
