@@ -50,6 +50,9 @@ $ python3 -c 'import json; print(json.load(open("room/look.json"))["edit"])' |
 > picture:exposure=0.5
 > picture:view=Filmic
 
+# So it is where the folder is named from the root.
+$ retex-pack -q s.exr --preset looks/evening.json --web "$PWD/rooted" && diff -r room rooted && rm -r rooted
+
 # The folder holds all of it, wherever it lies: the tools make the picture that the preset was of, but for the 8 bits
 # of the PNG.
 $ mkdir away

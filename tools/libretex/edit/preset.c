@@ -113,9 +113,19 @@ static int name_for_preset(char *name, size_t size, const Move *move, RetexError
     return set_name(name, size, made, err);
 }
 
+/* Whether a file is in the folder of the preset, or below it. */
+static int is_with_preset(const char *name, const Move *move)
+{
+    char folder[PATH_MAX];
+    const size_t length = move->real ? strlen(move->real) : 0;
+    return length > 1 && real_folder(folder, name, image_folder_length(name)) &&
+           strncmp(folder, move->real, length) == 0 && (!folder[length] || folder[length] == '/');
+}
+
+/* An absolute name stays one, unless the file moves with the preset: a page, where it is served from, has no other. */
 static int move_name(char *name, size_t size, const Move *move, RetexError *err)
 {
-    if (!name[0] || name[0] == '/')
+    if (!name[0] || (name[0] == '/' && !is_with_preset(name, move)))
         return RETEX_OK;
     return move->real ? name_for_preset(name, size, move, err) : name_from_preset(name, size, move, err);
 }
