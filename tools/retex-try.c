@@ -31,7 +31,7 @@ enum { MOST_TARGETS = 8, MOST_ENDING = 16 };
 #define AFTER_RENDER 60e-6
 #define AFTER_TARGET 35e-6
 /* Samples of a denoised set. Fewer leave blotches; a smaller picture is better than few; more hardly change it. */
-enum { LEAST_SAMPLES = 4, GOOD_SAMPLES = 24, MOST_SAMPLES = 256, QUICK_SAMPLES = 2 };
+enum { LEAST_SAMPLES = 16, GOOD_SAMPLES = 32, MOST_SAMPLES = 256, QUICK_SAMPLES = 2 };
 
 typedef struct Job {
     const char *room, *floor, *wall;

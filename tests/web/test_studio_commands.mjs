@@ -4,7 +4,7 @@ import { same, test } from "./tap.mjs";
 import * as c from "../../tools/studio/web/commands.js";
 import { addressOf, lookArgs, lookOfLink, pathOf, presetOf, readLook } from "../../tools/studio/web/look.js";
 import { emptyProject } from "../../tools/studio/web/project.js";
-import { errorReport, importReport, isLoss } from "../../tools/studio/web/words.js";
+import { errorReport, importReport, isLoss, pictureTrouble } from "../../tools/studio/web/words.js";
 import { player } from "./player.mjs";
 
 const room = { ...emptyProject("my room.glb"), view: { eye: [1, 2, 3], at: [0, 1, 0], angle: 65 },
@@ -27,7 +27,7 @@ test("an import has what was said, and goes into the project's folder", () => {
 test("names stand behind the options, also those that look like one", () => {
   const model = "--help", project = { ...room, model }, set = "-o.exr";
   const lines = [c.importArgs(project), c.variantListArgs(project), c.renderArgs({ ...project, model: "-x.pov" }, set), c.trialArgs(project, 100, "t"), c.cropArgs(project, [0, 0, 1, 1], "t"),
-    c.lampListArgs(project), c.finishListArgs(project), c.webArgs(set, "w"), c.pageArgs(set, "w", "p", true), c.packArgs(set, "p"), c.pictureArgs(set, "Floor=tomato", "p", "640x"), c.catalogueArgs(set, "t", "r", "")];
+    c.lampListArgs(project), c.viewArgs(project, "-x", "v"), c.finishListArgs(project), c.webArgs(set, "w"), c.pageArgs(set, "w", "p", true), c.packArgs(set, "p"), c.pictureArgs(set, "Floor=tomato", "p", "640x"), c.catalogueArgs(set, "t", "r", "")];
   for (const line of lines) same([line.indexOf("--"), line.length - 2 - line.indexOf("--")], [line.length - 2, 0], line.join(" "));
 });
 
@@ -96,6 +96,21 @@ test("what an import tells, in plain words", () => {
   same(importReport(lines).map(({ text, asks }) => [text.slice(0, 40), asks]), [["The lengths of this model look like cent", false], ["The picture “wood.png” is missing. Put i", true], ["The picture “Oak_0-1” cannot be read. Sa", true], ["Something new", false],
     ["Next to nothing lights this model: its p", true]]);
   same([isLoss(["retex-import: images are lost; --partial makes the scene without them"]), isLoss(lines)], [true, false]);
+});
+
+test("a first picture of no use is told, and what was done about light is no trouble", () => {
+  const told = (line) => pictureTrouble(["retex-import: 3 materials, 2 meshes, 2 objects, 9 triangles", `retex-import: ${line}`, "retex-import: wrote s/s.pov"]).slice(0, 26);
+  same(told("warning: nothing is seen in the picture: --camera chooses another view"), "The first picture shows no");
+  same(told("warning: the picture is black: no light reaches what is seen; --sky FILE lights it, --camera another view"), "The first picture is black");
+  same(told("warning: the picture will be black, or nearly so: the lights of the model are; --sky FILE lights it"), "Next to nothing lights thi");
+  const done = ["the light of the model comes by few ways, as of a lamp: light is added", "the model has no sky: one is added, Added_light in s.pov, 0 without",
+    "the light of the model reaches 3 % of what is seen: light is added", "an exposure of +5.10 stops brings the picture to a middle grey: retex_exposure in s.pov"];
+  same([done.map(told), importReport(done).map(({ asks }) => asks)], [["", "", "", ""], [false, false, false, false]]);
+});
+
+test("views of the scene are looked at in small", () => {
+  same(c.viewArgs(room, "View_2", "v.png"), ["--plain", "--camera", "View_2", "--size", "192x144", "--spp", "8", "-q", "-o", "v.png", "--", "my room.glb.studio/scene/scene.pov"]);
+  same(c.viewArgs(room, "", "v.png").includes("--camera"), false);
 });
 
 test("errors say what to do, and keep the tool's line", () => {

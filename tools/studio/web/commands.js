@@ -68,6 +68,10 @@ export function trialArgs(project, width, file) {
     "--stats", "-", "-q", "-o", file, "--", sceneOf(project)];
 }
 
+/* A small picture of what a camera of the scene sees; "": its first one. */
+export const viewArgs = (project, camera, file) =>
+  ["--plain", ...(camera ? ["--camera", camera] : []), "--size", "192x144", "--spp", "8", "-q", "-o", file, "--", sceneOf(project)];
+
 export const lampListArgs = (project) => ["--list-lamps", ...cameraArgs(project), "--", sceneOf(project)];
 export const finishListArgs = (project) => ["--list-finishes", "--", sceneOf(project)];
 export const webArgs = (set, folder) => ["-q", "--web", folder, "--", set];

@@ -3,13 +3,15 @@ import * as api from "./api.js";
 import { importArgs, variantListArgs } from "./commands.js";
 import { button, choice, field, h, icon, ICONS } from "./dom.js";
 import { chosenFiles, modelsOf, putModel } from "./files.js";
-import { errorReport, importReport, isLoss } from "./words.js";
+import { own } from "./step_view.js";
+import { errorReport, importReport, isLoss, pictureTrouble } from "./words.js";
 
 const KINDS = { model: "3D model", scene: "scene", set: "rendered room", folder: "folder", picture: "picture" };
 
 export const id = "open", title = "Open", hint = "Choose a 3D model of a room.";
 
-export const isDone = (app) => !!app.model && (app.hasScene || app.kind === "set");
+const troubleOf = ({ kind, project }) => (kind === "model" ? pictureTrouble(project.import.lines || []) : "");
+export const isDone = (app) => !!app.model && (app.hasScene || app.kind === "set") && !troubleOf(app);
 
 /* Files from outside, { path, file }, are put into a folder of the studio first. */
 export async function openFiles(app, list) {
@@ -66,7 +68,7 @@ export const importModel = (app, change = {}) => app.attempt(async () => {
   if (done) {
     app.modelChanged = false;
     app.known = {};
-    app.say("The model is ready.");
+    app.say(troubleOf(app) || "The model is ready.", troubleOf(app) ? "hint" : "note");
   }
 });
 
@@ -136,6 +138,29 @@ function options(app) {
     button("Read the model again", () => importModel(app), { id: "import-again" }));
 }
 
+/* A plain sky, brighter above. */
+function skyPicture() {
+  const canvas = h("canvas", { width: 64, height: 32 }), context = canvas.getContext("2d"), colors = context.createLinearGradient(0, 0, 0, 32);
+  for (const [at, color] of [[0, "#dfe9f5"], [0.5, "#f3f3f0"], [0.52, "#8c8880"], [1, "#8c8880"]]) colors.addColorStop(at, color);
+  context.fillStyle = colors;
+  context.fillRect(0, 0, 64, 32);
+  return new Promise((done) => canvas.toBlob(done));
+}
+
+const addSky = (app) => app.attempt(async () => importModel(app, { sky: await api.upload("sky.png", await skyPicture()) }));
+
+/* A first picture that is of no use, and what to try. */
+function trouble(app, lines) {
+  const text = troubleOf(app), { camera, sky } = app.project.import;
+  const isInside = camera ? camera === "inside" : lines.some((line) => /the view is from inside/.test(line));
+  return text && h("div", { class: "card bad", role: "alert", id: "import-trouble" }, icon(ICONS.warn),
+    h("div", {}, h("strong", {}, "The model was read, but its picture is of no use yet"), h("p", {}, text),
+      h("div", { class: "buttons" },
+        button(isInside ? "Look from outside" : "Look from inside", () => importModel(app, { camera: isInside ? "outside" : "inside" }), { id: "import-other-view" }),
+        sky ? button("Take the sky away", () => importModel(app, { sky: "" }), { id: "import-sky" }) : button("Put a sky around it", () => addSky(app), { id: "import-sky" })),
+      own(app, () => app.go("view"))));
+}
+
 function report(app) {
   const { lines = [], done } = app.project.import, problems = importReport(lines);
   if (!lines.length) return null;
@@ -147,9 +172,9 @@ function report(app) {
         loss ? button("Go on without it", () => importModel(app, { partial: true }), { id: "import-partial" }) : null,
         h("details", {}, h("summary", {}, "What the program said"), h("pre", {}, lines.join("\n")))));
   }
-  return h("div", { class: "report" }, h("h3", {}, "What was found"),
+  return [trouble(app, lines), h("div", { class: "report" }, h("h3", {}, "What was found"),
     h("ul", {}, problems.map((p) => h("li", { class: p.asks ? "asks" : "" }, p.asks ? icon(ICONS.warn) : icon(ICONS.done), h("span", {}, p.text)))),
-    h("details", {}, h("summary", {}, "What the program said"), h("pre", {}, lines.join("\n"))));
+    h("details", {}, h("summary", {}, "What the program said"), h("pre", {}, lines.join("\n"))))];
 }
 
 export function render(app) {

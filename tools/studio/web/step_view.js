@@ -1,6 +1,8 @@
 /* View: where the picture is taken from. */
 import { angled, ANGLE_LEAST, ANGLE_MOST } from "./camera.js";
+import { folderOf, viewArgs } from "./commands.js";
 import { button, choice, field, h, iconButton } from "./dom.js";
+import { addressOf } from "./look.js";
 import { freeName, spoken } from "./project.js";
 
 export const id = "view", title = "View", hint = "Move until the picture shows what you want.";
@@ -37,16 +39,40 @@ function angle(app) {
   return h("div", { class: "field slider" }, h("label", { for: "angle" }, "How wide"), input, out);
 }
 
-/* Those that the file has, where there are several. */
-function own(app) {
-  const cameras = app.preview.live?.cameras || [];
-  if (cameras.length < 2) return null;
+/* Small pictures of the scene's own views, one after the other. */
+function lookRound(app, names) {
+  const { known } = app;
+  if (known.views) return;
+  known.views = {};
+  app.attempt(async () => {
+    for (const name of names) {
+      if (app.known !== known) return; // it has been read anew
+      const file = `${folderOf(app.project.model)}/views/${names.indexOf(name)}.png`;
+      await app.runWell("retex-render", viewArgs(app.project, name, file), "Look from other places");
+      known.views[name] = `${addressOf(file)}?${app.project.import.number || 0}`;
+      app.tell();
+    }
+  });
+}
+
+const PICTURES_MOST = 8;
+
+/* Views that the scene has, where there are several: as pictures, of many their names. then: after one is chosen. */
+export function own(app, then = () => 0) {
+  const cameras = app.preview.live?.cameras || [], { view } = app.project;
+  if (!cameras.length) return null;
   const go = (name) => {
     const camera = cameras.find((c) => c.name === name);
-    if (camera) app.change(`Go to ${name}`, (p) => ({ ...p, view: plain(camera) }));
+    app.change(`Go to ${name ? spoken(name) : "the file's view"}`, (p) => ({ ...p, view: camera ? plain(camera) : null }));
+    then();
   };
-  const now = cameras.find((c) => same(c, app.project.view))?.name || "";
-  return field("Cameras of the file", choice("file-camera", [["", "choose one"], ...cameras.map((c) => [c.name, spoken(c.name)])], now, go));
+  const now = view ? cameras.find((c) => same(c, view))?.name : "";
+  if (cameras.length > PICTURES_MOST) return field("Cameras of the file", choice("file-camera", [["", "choose one"], ...cameras.map((c) => [c.name, spoken(c.name)])], now || "", go));
+  const names = ["", ...cameras.map((c) => c.name)];
+  lookRound(app, names);
+  return [h("h3", {}, "Views of the file"), h("ul", { class: "cameras", id: "own-views" }, names.map((name, k) => h("li", {},
+    h("button", { type: "button", class: "camera", id: `own-view-${k}`, "aria-pressed": String(name === now), onclick: () => go(name) },
+      app.known.views[name] ? h("img", { src: app.known.views[name], alt: "" }) : h("span", { class: "no-thumb" }), h("span", {}, name ? spoken(name) : "First view")))))];
 }
 
 export function render(app) {

@@ -13,6 +13,13 @@ const IMPORT = [
   [/^camera (\d+) of (\d+) is used/, "The file has $2 cameras; number $1 is used."],
   [/^no light in the model, and no opening/, "The file has no light, and nothing lets light in: a lamp was put below the ceiling."],
   [/^the picture will be black, or nearly so/, "Next to nothing lights this model: its pictures will be black, or nearly so. Give it a light in the program that made it, and open it again.", true],
+  [/^the light of the model comes by few ways/, "The light of this model comes through gaps, or from a lamp in a housing, and would be spots in pictures: soft light was added."],
+  [/^the model has no sky/, "There was nothing behind the model: a soft sky was added."],
+  [/^the light of the model reaches (\d+) %/, "The light of this model reaches only $1 % of the picture: soft light was added."],
+  [/^an exposure of .* stops brings/, "The light was too bright or too dark for a picture: the brightness was set by a first look."],
+  [/^nothing is seen in the picture/, "The first picture shows nothing: you stand in something, or look away from the model.", true],
+  [/^the picture is black: no light/, "The first picture is black: no light reaches what is seen from here.", true],
+  [/^targets that are ready: (.*); -t/, "Found for new textures: $1."],
   [/soft sky lights it/, "The file has no light: a soft sky lights it."],
   [/lie on others of the same corners/, "Some faces were there twice; one of each is kept."],
   [/are? where the same one is/, "Some objects were there twice; one of each is kept."],
@@ -55,6 +62,9 @@ export function importReport(lines) {
   return lines.map(bare).filter((line) => line && !/^(wrote |--?\w)/.test(line))
     .map((line) => meant(IMPORT, line) || { text: `${line[0].toUpperCase()}${line.slice(1)}`, asks: false, line });
 }
+
+/* What is wrong with the first picture of a model that was read, or "". */
+export const pictureTrouble = (lines) => importReport(lines).find(({ line }) => /^(nothing is seen in|the picture (is|will be) black)/.test(line))?.text || "";
 
 /* Images or other parts are lost: the import can go on without them. */
 export const isLoss = (lines) => lines.some((line) => /--partial/.test(line));
