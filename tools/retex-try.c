@@ -1,7 +1,7 @@
 /* retex-try: from a model and a picture of a floor to a web page, by the other tools. See retex-try(1).
  *
- * Each step is a command that runs in a folder of its own, work, which is removed in the end or kept by another name. The
- * page is a second folder. Both lie beside what they become. */
+ * Each step is a command that runs in a folder of its own, work, which is removed in the end or kept by another name.
+ * The page is a second folder. Both lie beside what they become. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>

@@ -83,7 +83,7 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7
     11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
-back=$(rooms tools 1:common 2:batch 2:http 2:decode 3:combine 3:page 3:studio \
+back=$(rooms tools 1:common 2:batch 2:http 2:decode 3:combine 3:page 3:studio 3:try \
     2:import/base 2:import/space 3:import/gltf 4:import/read 4:import/sense 5:import/scene 6:import \
     3:serve/request 3:serve/answer 3:serve/clients 4:serve/files 5:serve/site 6:serve/http)
 [ -z "$back" ] || complain "rooms of tools, from one that stands later:

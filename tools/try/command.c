@@ -183,7 +183,8 @@ void command_run(Command *command, const char *title, void (*take)(void *to, con
         cli_die(cli, "%s was ended by a signal: %s", command->words[0], strsignal(WTERMSIG(status)));
     if (status) /* it has said why */
         exit(cli_close(cli, WEXITSTATUS(status)));
-    command->share = (seconds_of(used.ru_utime) + seconds_of(used.ru_stime)) / fmax(retex_clock_seconds() - started, 1e-3);
+    const double processor = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+    command->share = processor / fmax(retex_clock_seconds() - started, 1e-3);
 }
 
 void command_end(Command *command, int number)
