@@ -1,5 +1,5 @@
-/* What a small picture has, and how much that is worth. The weights are such that views which people chose for models of
- * theirs are among the best of all: they stand far back, and see many things in whole. */
+/* What a small picture has, and how much that is worth. The weights are such that views which people chose for models
+ * of theirs are among the best of all: they stand far back, and see many things in whole. */
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

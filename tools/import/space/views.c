@@ -146,9 +146,9 @@ static int find_places(const Room *room, int *places)
     return kept;
 }
 
-/* Whether people can stand there: not on the seat of a chair, not between the boards of a shelf, nor in its hull. Where
- * one does not know how long a metre is, free space that is as high as a room is to be as wide, and not as a square: the
- * room may be a board with chessmen. */
+/* Whether people can stand there: not on the seat of a chair, not between the boards of a shelf, nor in its hull.
+ * Where one does not know how long a metre is, free space that is as high as a room is to be as wide, and not as wide
+ * as a square: it may be a board with chessmen. */
 static int is_for_people(const Room *room)
 {
     const int is_known = room->is_said && !room->is_doubtful;
