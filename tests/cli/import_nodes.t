@@ -6,14 +6,14 @@ $ /usr/bin/python3 $TESTS/import_nodes.py && reference
 $ for m in instances instances_words instances_bytes instances_packed; do
 +     look $m.gltf && same $m.exr reference.exr
 + done
-$ retex-import instances.gltf -o instances && grep -c '^object' instances/instances.pov
+$ retex-import --exposure 0 instances.gltf -o instances && grep -c '^object' instances/instances.pov
 > 2
 ! retex-import: other views: View_2 from outside, View_3 from outside, View_4 from outside; --camera of retex-render takes one
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote instances/instances.pov
 $ for m in uneven beyond many sum nan child; do
-+     retex-import -q instances_$m.gltf -o odd
++     retex-import --exposure 0 -q instances_$m.gltf -o odd
 +     echo $?
 + done
 > 2
@@ -34,8 +34,8 @@ $ ls -d odd*
 
 # What is hidden is not there, nor what is below it; its light is off. Its camera is there.
 $ look hidden.gltf && same hidden.exr reference.exr
-$ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.pov &&
-+     grep '^camera' hidden/hidden.pov && retex-import -q --camera watchman hidden.gltf -o seen &&
+$ retex-import --exposure 0 hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.pov &&
++     grep '^camera' hidden/hidden.pov && retex-import --exposure 0 -q --camera watchman hidden.gltf -o seen &&
 +     grep '^camera' seen/seen.pov
 > 1
 > camera { Camera_nodes_2 }
@@ -44,38 +44,38 @@ $ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.po
 ! retex-import: other views: View_2 from outside, View_3 from outside, View_4 from outside; --camera of retex-render takes one
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote hidden/hidden.pov
-$ for m in circle all; do retex-import -q hidden_$m.gltf -o odd; echo $?; done
+$ for m in circle all; do retex-import --exposure 0 -q hidden_$m.gltf -o odd; echo $?; done
 > 2
 > 2
 ! retex-import: error: hidden_circle.gltf: its nodes lie within one another more than 4000 deep, or within themselves
 ! retex-import: error: hidden_all.gltf: there are no surfaces in it
 
 # Points and lines are told, also where there is nothing else.
-$ retex-import -q lines.gltf -o lines
+$ retex-import --exposure 0 -q lines.gltf -o lines
 ! retex-import: warning: points and lines are left out
 $ grep -c '^object' lines/lines.pov
 > 2
-$ retex-import -q points.gltf -o points
+$ retex-import --exposure 0 -q points.gltf -o points
 ! retex-import: error: points.gltf: there are no surfaces in it
 = 2
 
 # A line for each material and what it does without, if that shows; not without end.
-$ retex-import -q without.gltf -o without
+$ retex-import --exposure 0 -q without.gltf -o without
 ! retex-import: warning: the material `pan`: its anisotropy is left out
 ! retex-import: warning: the material `soap`: its iridescence is left out
 ! retex-import: warning: the material `soap`: its diffuse transmission is left out
 ! retex-import: warning: the material `materials[3]`: its extension EXT_materials_?fur is left out
 ! retex-import: warning: the extension EXT_mesh_features is left out
-$ retex-import -q without_many.gltf -o many 2>&1 | tail -n 3
+$ retex-import --exposure 0 -q without_many.gltf -o many 2>&1 | tail -n 3
 > retex-import: warning: the material `pan 15`: its anisotropy is left out
 > retex-import: warning: the like is left out 4 more times
 > retex-import: warning: the extension EXT_mesh_features is left out
-$ retex-import -q extensions.gltf -o extensions 2>&1 | tail -n 2
+$ retex-import --exposure 0 -q extensions.gltf -o extensions 2>&1 | tail -n 2
 > retex-import: warning: the extension EXT_unknown_15 is left out
 > retex-import: warning: the like is left out 2 more times
 
 # Light of the attenuation's colour is what is left behind its distance, here 2: exp((fade_color - 1) 2 / fade_distance).
-$ retex-import -q absorbs.gltf -o absorbs
+$ retex-import --exposure 0 -q absorbs.gltf -o absorbs
 $ grep -o 'fade_power.*>' absorbs/absorbs.pov | tr -d '<>,' |
 +     awk '{ for (k = 0; k < 3; k++) printf "%.3f\n", exp(($(7 + k) - 1) * 2 / $4) }'
 > 0.250
@@ -83,7 +83,7 @@ $ grep -o 'fade_power.*>' absorbs/absorbs.pov | tr -d '<>,' |
 > 0.800
 
 # Where nothing is mirrored there is no reflection; all of many nodes are there.
-$ retex-import wide.gltf --up y -o wide 2>&1 | grep objects
+$ retex-import --exposure 0 wide.gltf --up y -o wide 2>&1 | grep objects
 > retex-import: no camera in the model: the view is from outside, on the side that shows most; 0 % of it is furniture, 0 % floor, 0 objects are seen, from 694.6,4136,-8830 to 0.5,0.5,-2500, 40 degrees
 > retex-import: 2 materials, 2 meshes, 5000 objects, 4 triangles
 $ grep -c reflection wide/wide.pov

@@ -4,13 +4,13 @@
  * large, low, with things and walls above; upright ones behind which little is are walls. Names of nodes, meshes and
  * materials count besides, in several languages. Each is written as a point of it and /level, which takes all that lies
  * in the plane, whatever meshes and images it is of, and gives it UV in metres. */
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "import/base/tell.h"
 #include "import/base/world.h"
+#include "import/sense/called.h"
 #include "import/sense/sense.h"
 #include "import/space/space.h"
 
@@ -18,60 +18,6 @@
 enum { ACROSS = 112, DOWN = 84, RAYS = ACROSS * DOWN, MOST_PLANES = 96, STRIDE = 2477 /* no divisor of RAYS */ };
 #define FLAT 0.9848    /* cosine of 10 degrees, as /level has it */
 #define UPRIGHT 0.1736 /* its sine */
-
-/* ---- what names say ---- */
-
-static const char *const floor_words[] = {
-    "floor",   "floors", "flooring", "ground",  "parquet", "parquetry", "laminate", "linoleum", "boden",  "fussboden",
-    "fußboden", "parkett", "estrich",  "laminat", "dielen",  "sol",       "plancher", "piso",     "pisos",  "suelo",
-    "chao",    "chão",    "pavimento", "vloer",   "golv",    "gulv",      "podlaha",  "podloga",  "podłoga", "lattia",
-    "zemin",   "pol",    "yuka",     "floorboard", "floorboards", "tatami", NULL};
-static const char *const no_floor_words[] = {"lamp",  "light", "ceiling", "roof",   "rug",  "table", "desk", "bed",   "sofa",
-                                             "couch", "shelf", "decke",   "dach",   "tisch", "bett",  "teppich", "seat", "mat",
-                                             "counter", "countertop", "worktop", "shadow", NULL};
-static const char *const wall_words[] = {"wall",   "walls",  "wallpaper", "wand",  "waende", "wände", "mur",    "murs",  "mural",
-                                         "pared",  "paredes", "parete",   "pareti", "parede", "muro",  "muros",  "muur",  "vegg",
-                                         "vagg",   "vägg",   "sciana",    "ściana", "stena",  "seina", "duvar",  "kabe",  "tapete", NULL};
-static const char *const no_wall_words[] = {
-    "door",  "doors",   "window",   "windows", "curtain",  "curtains", "wardrobe", "closet", "cupboard", "cabinet", "fridge",
-    "picture", "painting", "frame",   "glass",   "tv",       "screen",   "monitor",  "bookshelf", "shelf", "shelves", "fenster",
-    "tuer",  "tür",     "schrank",  "vorhang", "blind",    "blinds",   "ceiling",  "floor",  "whiteboard", "poster", "art",
-    "bed",   "sofa",    "mirror",   "board",   "lamp",     "light",    "clock",    NULL};
-
-static int is_letter(unsigned char c)
-{
-    return isalpha(c) || c >= 0x80;
-}
-
-/* The next word of a name: letters of one case, or a capital and small ones. Returns what follows; NULL at the end. */
-static const char *next_word(const char *at, char word[32])
-{
-    size_t n = 0;
-    while (*at && !is_letter((unsigned char)*at))
-        at++;
-    if (!*at)
-        return NULL;
-    for (; is_letter((unsigned char)*at); at++) {
-        const int begins = isupper((unsigned char)at[0]) && n > 0 &&
-                           (islower((unsigned char)at[-1]) || islower((unsigned char)at[1]));
-        if (begins)
-            break;
-        if (n < 31)
-            word[n++] = (char)tolower((unsigned char)*at);
-    }
-    word[n] = '\0';
-    return at;
-}
-
-static int has_word(const char *name, const char *const *words)
-{
-    char word[32];
-    while ((name = next_word(name, word)))
-        for (int k = 0; words[k]; k++)
-            if (strcmp(word, words[k]) == 0)
-                return 1;
-    return 0;
-}
 
 /* ---- what is seen ---- */
 
@@ -380,14 +326,6 @@ typedef struct Naming {
     uint32_t object;
 } Naming;
 
-static int said(const char *node, const char *mesh, const char *material, const char *const *words,
-                const char *const *others)
-{
-    if (has_word(node, others) || has_word(mesh, others) || has_word(material, others))
-        return has_word(material, words) && !has_word(material, others) ? 1 : -1;
-    return has_word(node, words) || has_word(mesh, words) || has_word(material, words);
-}
-
 static void name_objects(Import *import, const struct aiNode *node, const Affine *world, void *context)
 {
     Naming *naming = context;
@@ -399,8 +337,9 @@ static void name_objects(Import *import, const struct aiNode *node, const Affine
             continue;
         Object *object = &naming->search->objects[naming->object++];
         const ImportMaterial *material = &import->materials[mesh->mMaterialIndex];
-        object->floor = (signed char)said(node->mName.data, mesh->mName.data, material->name, floor_words, no_floor_words);
-        object->wall = (signed char)said(node->mName.data, mesh->mName.data, material->name, wall_words, no_wall_words);
+        const char *const names[3] = {material->name, node->mName.data, mesh->mName.data};
+        object->floor = (signed char)called_floor(names);
+        object->wall = (signed char)called_wall(names);
         object->passes = (unsigned char)material->is_clear;
     }
 }
