@@ -174,6 +174,26 @@ static void floors(void **state)
     }
 }
 
+/* Of a floor with a corner in it u goes along its walls, not along the diagonal that is the longest edge of its hull. */
+static void floors_with_corners(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        char text[600];
+        const double degrees = 24 * k - 72, turn = degrees * PI / 180; /* within a right angle the side stays the longer */
+        snprintf(text, sizeof text,
+                 HEAD "mesh { triangle { <0,0,0>, <6,0,0>, <6,0,1> } triangle { <0,0,0>, <6,0,1>, <0,0,1> } "
+                      "triangle { <0,0,1>, <1.5,0,1>, <1.5,0,5> } triangle { <0,0,1>, <1.5,0,5>, <0,0,5> } "
+                      "rotate y*%g translate <3,0,20> }",
+                 degrees);
+        World world = open_world(text, "A=#1/level:1", 1);
+        const Vec3 u = vec3(cos(turn), 0, -sin(turn)), v = vec3(sin(turn), 0, cos(turn));
+        check_uv(&world, "corner", vec_add(vec3(3, 0, 20), vec_add(vec_scale(u, 0.75), vec_scale(v, 0.5))),
+                 vec3(0.1, -1, 0), 0.75, 0.5);
+        close_world(&world);
+    }
+}
+
 /* Of edges of the same length u goes along the one next to the first axis, however a triangle is turned. */
 static void even_floors(void **state)
 {
@@ -342,7 +362,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box),         cmocka_unit_test(box_from_inside), cmocka_unit_test(floors),
-        cmocka_unit_test(even_floors), cmocka_unit_test(walls),           cmocka_unit_test(boards),
+        cmocka_unit_test(even_floors), cmocka_unit_test(floors_with_corners), cmocka_unit_test(walls),           cmocka_unit_test(boards),
         cmocka_unit_test(copies),      cmocka_unit_test(cylinder),        cmocka_unit_test(chosen_by_itself),
         cmocka_unit_test(all_follow),
     };
