@@ -7,7 +7,8 @@
  *   that vertices that a file repeats count once.
  * - Level are faces whose outward normals differ by less than FLAT_DEGREES and whose corners lie in the plane of the
  *   face that was pointed at, within a tolerance: a hundredth of the diagonal of that object's bounds, but no more than
- *   a two-thousandth of that of the scene's: some millimetres, by which boards differ, and rugs do not. Surfaces that are not closed have no inside: both of their normals count.
+ *   a two-thousandth of that of the scene's: some millimetres, by which boards differ, and rugs do not. Surfaces that
+ *   are not closed have no inside: both of their normals count.
  *   Of what has copies, faces count that are level in all of them. */
 #ifndef RENDERER_FACES_FACES_H
 #define RENDERER_FACES_FACES_H

@@ -44,7 +44,8 @@ static double distance_to_bounds(const Primitive *p, const Instance *instance, V
         const Vec3 corner = vec3(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
         shape_bound_point(&from, &to, instance ? transform_point(&instance->transform, corner) : corner);
     }
-    const double x = fmax(fmax(from.x - point.x, point.x - to.x), 0), y = fmax(fmax(from.y - point.y, point.y - to.y), 0),
+    const double x = fmax(fmax(from.x - point.x, point.x - to.x), 0),
+                 y = fmax(fmax(from.y - point.y, point.y - to.y), 0),
                  z = fmax(fmax(from.z - point.z, point.z - to.z), 0);
     return sqrt(x * x + y * y + z * z);
 }

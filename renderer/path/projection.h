@@ -1,7 +1,8 @@
 /* UV that a model lacks: those of a target's surfaces as they are seen from its sides, by their place in the world.
  *
  * - planar: along one plane, that of the mean normal. On walls v goes up; on floors and ceilings, within 15 degrees, u
- *   goes along the longer side of the smallest rectangle around the outline. It is seen from the side on which the camera is.
+ *   goes along the longer side of the smallest rectangle around the outline. It is seen from the side on which the
+ *   camera is.
  * - box: from the axis next to the normal at each point, seen from the side that a ray meets, with v up, and away from
  *   the viewer on top. Sides are turned about the vertical as most upright faces of the target are.
  * - cylinder: around the vertical axis through the middle of the target's bounds, seen from the side that a ray meets.

@@ -174,13 +174,13 @@ static void floors(void **state)
     }
 }
 
-/* Of a floor with a corner in it u goes along its walls, not along the diagonal that is the longest edge of its hull. */
+/* Of a floor with a corner in it u goes along its walls, not along a diagonal that is the longest edge of its hull. */
 static void floors_with_corners(void **state)
 {
     (void)state;
     for (int k = 0; k < 7; k++) {
         char text[600];
-        const double degrees = 24 * k - 72, turn = degrees * PI / 180; /* within a right angle the side stays the longer */
+        const double degrees = 24 * k - 72, turn = degrees * PI / 180;
         snprintf(text, sizeof text,
                  HEAD "mesh { triangle { <0,0,0>, <6,0,0>, <6,0,1> } triangle { <0,0,0>, <6,0,1>, <0,0,1> } "
                       "triangle { <0,0,1>, <1.5,0,1>, <1.5,0,5> } triangle { <0,0,1>, <1.5,0,5>, <0,0,5> } "
@@ -362,7 +362,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box),         cmocka_unit_test(box_from_inside), cmocka_unit_test(floors),
-        cmocka_unit_test(even_floors), cmocka_unit_test(floors_with_corners), cmocka_unit_test(walls),           cmocka_unit_test(boards),
+        cmocka_unit_test(even_floors), cmocka_unit_test(floors_with_corners),
+        cmocka_unit_test(walls),           cmocka_unit_test(boards),
         cmocka_unit_test(copies),      cmocka_unit_test(cylinder),        cmocka_unit_test(chosen_by_itself),
         cmocka_unit_test(all_follow),
     };

@@ -5,21 +5,22 @@
 #include "import/sense/called.h"
 
 static const char *const floor_words[] = {
-    "floor",   "floors", "flooring", "ground",  "parquet", "parquetry", "laminate", "linoleum", "boden",  "fussboden",
-    "fußboden", "parkett", "estrich",  "laminat", "dielen",  "sol",       "plancher", "piso",     "pisos",  "suelo",
-    "chao",    "chão",    "pavimento", "vloer",   "golv",    "gulv",      "podlaha",  "podloga",  "podłoga", "lattia",
-    "zemin",   "pol",    "yuka",     "floorboard", "floorboards", "tatami", NULL};
-static const char *const no_floor_words[] = {"lamp",  "light", "ceiling", "roof",   "rug",  "table", "desk", "bed",   "sofa",
-                                             "couch", "shelf", "decke",   "dach",   "tisch", "bett",  "teppich", "seat", "mat",
-                                             "counter", "countertop", "worktop", "shadow", NULL};
-static const char *const wall_words[] = {"wall",   "walls",  "wallpaper", "wand",  "waende", "wände", "mur",    "murs",  "mural",
-                                         "pared",  "paredes", "parete",   "pareti", "parede", "muro",  "muros",  "muur",  "vegg",
-                                         "vagg",   "vägg",   "sciana",    "ściana", "stena",  "seina", "duvar",  "kabe",  "tapete", NULL};
+    "floor", "floors", "flooring", "ground", "parquet", "parquetry", "laminate", "linoleum", "boden",
+    "fussboden", "fußboden", "parkett", "estrich", "laminat", "dielen", "sol", "plancher", "piso", "pisos",
+    "suelo", "chao", "chão", "pavimento", "vloer", "golv", "gulv", "podlaha", "podloga", "podłoga", "lattia",
+    "zemin", "pol", "yuka", "floorboard", "floorboards", "tatami", NULL};
+static const char *const no_floor_words[] = {
+    "lamp", "light", "ceiling", "roof", "rug", "table", "desk", "bed", "sofa", "couch", "shelf", "decke",
+    "dach", "tisch", "bett", "teppich", "seat", "mat", "counter", "countertop", "worktop", "shadow", NULL};
+static const char *const wall_words[] = {
+    "wall", "walls", "wallpaper", "wand", "waende", "wände", "mur", "murs", "mural", "pared", "paredes",
+    "parete", "pareti", "parede", "muro", "muros", "muur", "vegg", "vagg", "vägg", "sciana", "ściana", "stena",
+    "seina", "duvar", "kabe", "tapete", NULL};
 static const char *const no_wall_words[] = {
-    "door",  "doors",   "window",   "windows", "curtain",  "curtains", "wardrobe", "closet", "cupboard", "cabinet", "fridge",
-    "picture", "painting", "frame",   "glass",   "tv",       "screen",   "monitor",  "bookshelf", "shelf", "shelves", "fenster",
-    "tuer",  "tür",     "schrank",  "vorhang", "blind",    "blinds",   "ceiling",  "floor",  "whiteboard", "poster", "art",
-    "bed",   "sofa",    "mirror",   "board",   "lamp",     "light",    "clock",    NULL};
+    "door", "doors", "window", "windows", "curtain", "curtains", "wardrobe", "closet", "cupboard", "cabinet",
+    "fridge", "picture", "painting", "frame", "glass", "tv", "screen", "monitor", "bookshelf", "shelf",
+    "shelves", "fenster", "tuer", "tür", "schrank", "vorhang", "blind", "blinds", "ceiling", "floor",
+    "whiteboard", "poster", "art", "bed", "sofa", "mirror", "board", "lamp", "light", "clock", NULL};
 
 static int is_letter(unsigned char c)
 {

@@ -316,7 +316,8 @@ static double wall_score(const Search *s, const Plane *plane, double ground)
     const double behind = share_behind(s, plane);
     if (tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
         return 0;
-    return plane->seen * (stands ? 1 : 0.3) * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) * exp2(1.5 * plane->named);
+    return plane->seen * (stands ? 1 : 0.3) * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) *
+           exp2(1.5 * plane->named);
 }
 
 /* ---- the whole ---- */
