@@ -2,8 +2,8 @@
 #ifndef RETEX_IMPORT_CALLED_H
 #define RETEX_IMPORT_CALLED_H
 
-/* Of the names of a material, a node and a mesh: 1 if they say so, -1 if they say something else, 0 if they say nothing.
- * A material goes before the others: it is the floor of a house, where a node has all of it. */
+/* Of the names of a material, a node and a mesh: 1 if they say so, -1 if they say something else, 0 if nothing. A
+ * material goes before the others: it is the floor of a house, where a node has all of it. */
 int called_floor(const char *const names[3]);
 int called_wall(const char *const names[3]);
 
