@@ -123,7 +123,7 @@ $ cat >end <<'END'
 + shift
 + env --default-signal=INT,TERM,HUP "$@" >none.log &
 + tool=$!
-+ until grep -q "$AFTER" none.log || ! kill -0 $tool 2>/dev/null; do sleep 0.05; done
++ until grep -q "$AFTER" none.log 2>/dev/null || ! kill -0 $tool 2>/dev/null; do sleep 0.05; done
 + sleep ${LATER-0.3}
 + kill -$signal $tool
 + wait $tool 2>/dev/null
