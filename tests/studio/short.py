@@ -1,8 +1,8 @@
 """The page of retex-studio in a browser, in some seconds: a scene is opened, surfaces are taken by clicks and keys, undone
-and saved, also when the window closes."""
+and saved, also when the window closes; a model whose first picture is black is not called ready."""
 import tempfile
 
-from drive import Server, Studio, result, small_scene
+from drive import Server, Studio, own_project, result, small_scene
 from page import finish
 
 FLOOR, WALL, BALL = (0.2, 0.9), (0.1, 0.2), (0.5, 0.5)
@@ -38,6 +38,40 @@ def walk(page, server):
            f"the last change is saved when the window closes, without a question {names(server.project())}")
 
 
+def boxes(work, *bounds):
+    """Closed boxes as OBJ, each of its low and high corners."""
+    with open(f"{work}/boxes.obj", "w", encoding="utf-8") as file:
+        for number, (low, high) in enumerate(bounds):
+            for k in range(8):
+                print("v", *((low, high)[k >> axis & 1][axis] for axis in (2, 1, 0)), file=file)
+            print(f"o Box{number}", file=file)
+            for face in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)):
+                print("f", *(8 * number + k + 1 for k in face), file=file)
+    return "boxes.obj"
+
+
+def find_black(page, work):
+    """An eye within a closed box."""
+    own_project(work, boxes(work, ((0, 0, 0), (4, .1, 4)), ((1, .1, 1), (2, 1, 2)), ((3, .1, 2), (3.5, .6, 3))),
+                **{"import": {"camera": "1.5,0.5,-1.5:1.8,0.5,-1.5"}})
+    server = Server(work, model="boxes.obj")
+    try:
+        page.open_studio(server)
+        page.wait("document.querySelector('#import-trouble')")
+        said = page.run("document.querySelector('#messages').textContent")
+        result("black" in page.told("picture is black") and "ready" not in said and not page.run("!!document.querySelector('#step-open .tick')"),
+               f"a model whose picture is black is not called ready: {said}")
+        page.wait("document.querySelectorAll('#own-views img').length > 2")
+        page.shot("studio-black")
+        page.go("#import-other-view")
+        page.wait("document.querySelector('#step-open .tick')")
+        page.shot("studio-not-black")
+        result(page.saved(server)["import"]["camera"] == "outside" and not page.run("!!document.querySelector('#import-trouble')"),
+               "from outside it is")
+    finally:
+        server.close()
+
+
 def main():
     with tempfile.TemporaryDirectory() as work:
         server = Server(work, model=small_scene(work))
@@ -46,8 +80,13 @@ def main():
             page.size(1280, 800)
             walk(page, server)
         finally:
-            page.close()
             result(server.close() == 0, "a signal ends the server")
+        page.leave()
+        with tempfile.TemporaryDirectory() as other:
+            try:
+                find_black(page, other)
+            finally:
+                page.close()
     finish()
 
 

@@ -152,11 +152,11 @@ const addSky = (app) => app.attempt(async () => importModel(app, { sky: await ap
 /* A first picture that is of no use, and what to try. */
 function trouble(app, lines) {
   const text = troubleOf(app), { camera, sky } = app.project.import;
-  const isInside = camera ? camera === "inside" : lines.some((line) => /the view is from inside/.test(line));
+  const isOutside = camera ? camera === "outside" : lines.some((line) => /the view is from outside/.test(line));
   return text && h("div", { class: "card bad", role: "alert", id: "import-trouble" }, icon(ICONS.warn),
     h("div", {}, h("strong", {}, "The model was read, but its picture is of no use yet"), h("p", {}, text),
       h("div", { class: "buttons" },
-        button(isInside ? "Look from outside" : "Look from inside", () => importModel(app, { camera: isInside ? "outside" : "inside" }), { id: "import-other-view" }),
+        button(isOutside ? "Look from inside" : "Look from outside", () => importModel(app, { camera: isOutside ? "inside" : "outside" }), { id: "import-other-view" }),
         sky ? button("Take the sky away", () => importModel(app, { sky: "" }), { id: "import-sky" }) : button("Put a sky around it", () => addSky(app), { id: "import-sky" })),
       own(app, () => app.go("view"))));
 }
