@@ -189,11 +189,11 @@ $ ls -d y*
 ! ls: cannot access 'y*': No such file or directory
 = 2
 
-# Light: a closed room gets a lamp below its ceiling, also where what shines is hidden; one with an opening or a pane
-# the sky; one that has a lamp, nothing.
+# Light: a closed room gets a lamp below its ceiling, one with an opening or a pane the sky. Those that have a lamp, if it
+# is hidden too, get theirs switched off.
 $ for m in dark hidden window glass lamp; do
 +     retex-import --exposure 0 -f $m.gltf -o x 2>&1 | grep -o 'no light.*' || echo none
-+     echo $(grep -c '^sky_sphere' x/x.pov) $(grep -c 'declare Ceiling_light' x/x.pov)
++     echo $(grep -c '^sky_sphere' x/x.pov) $(grep -c 'declare Ceiling_light' x/x.pov) $(grep -o 'Added_light = .*;' x/x.pov)
 + done
 > no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > 0 1
