@@ -44,6 +44,7 @@ $ cat own/own.pov
 >   radiosity { count 200 error_bound 0.5 recursion_limit 2 }
 > }
 > #default { finish { ambient 0 } }
+> #ifdef (Retex) global_settings { retex_exposure   +0.00 } #end // stops, by which pictures are brighter
 >
 > // ---- camera ----
 >
@@ -83,7 +84,11 @@ $ cat own/own.pov
 >
 > // ---- light ----
 >
-> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }
+> // Light that the model lacks: how bright it is, 0 where it has enough of its own.
+> #declare Added_light =      1.000;
+> #if (Added_light > 0)
+> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_light] [1 rgb Added_light] } scale 2 translate -y } }
+> #end
 >
 > // ---- materials: each can be a target of retexturing ----
 >
@@ -239,6 +244,7 @@ $ retex-import --exposure 0 names.obj -o names && grep declare names/names.pov
 > #declare View_2 = camera {
 > #declare View_3 = camera {
 > #declare View_4 = camera {
+> #declare Added_light =      1.000;
 > #declare Sphere = texture {
 > #declare Sphere_2 = texture {
 > #declare Material_2nd = texture {
