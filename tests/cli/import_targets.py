@@ -34,13 +34,13 @@ class Room:
         self.quad(node, material, None, (x, y, z), (0, 0, d), (0, h, 0))
         self.quad(node, material, None, (x + w, y, z + d), (0, 0, -d), (0, h, 0))
 
-    def shell(self, floor=True, material='Mat', ceiling=True, walls='LBRF', names=('Plane', 'Cube')):
+    def shell(self, floor=True, material='Mat', ceiling='Mat.003', walls='LBRF', names=('Plane', 'Cube')):
         """5 by 4 by 2.6, seen from inside."""
         floor_name, wall_name = names
         if floor:
             self.quad(floor_name, material, 'floor', (0, 0, 4), (5, 0, 0), (0, 0, -4))
         if ceiling:
-            self.quad('Cube.001', 'Mat.003', None, (0, 2.6, 0), (5, 0, 0), (0, 0, 4))
+            self.quad('Cube.001', ceiling, None, (0, 2.6, 0), (5, 0, 0), (0, 0, 4))
         for side, p, a in (('L', (0, 0, 4), (0, 0, -4)), ('B', (0, 0, 0), (5, 0, 0)), ('R', (5, 0, 0), (0, 0, 4)),
                            ('F', (5, 0, 4), (-5, 0, 0))):
             if side in walls:
@@ -97,9 +97,18 @@ def atlas():
 def named():
     """A stage covers most of the floor, and a wardrobe a wall."""
     room = Room()
-    room.shell(names=('Fußboden', 'rueck.Wand_01'))
+    room.shell(names=('Fußboden', 'rueckWand_01'))
     room.box('Podest', 'Mat.001', (1.2, 0, .9), (4.6, .15, 3.2))
     room.box('grosserSchrank', 'Mat.001', (.2, 0, .1), (4.9, 2.5, .6))
+    return room
+
+
+def divided():
+    """A partition stands in the room, whose walls are of the ceiling's material."""
+    room = Room()
+    room.shell(floor=False, ceiling='Mat')
+    room.quad('Plane', 'Mat.002', 'floor', (0, 0, 4), (5, 0, 0), (0, 0, -4))
+    room.box('Cube.002', 'Mat.001', (1.5, 0, 1.9), (3.3, 1.9, 1.95))
     return room
 
 
@@ -138,8 +147,17 @@ def exterior():
     return room
 
 
+def park():
+    room = Room()
+    room.box('Lawn', 'Grass', (-12, -.1, -12), (12, 0, 12))
+    for k in range(48):
+        a, r = 2 * math.pi * k / 48, 7 + (k * 7 % 11) / 3
+        room.box('Trunk', 'Bark', (r * math.cos(a), 0, r * math.sin(a)), (r * math.cos(a) + .45, 4, r * math.sin(a) + .45))
+    return room
+
+
 ROOMS = {'boards': boards(), 'tiles': tiles(), 'atlas': atlas(), 'turned': boards().turned(30), 'named': named(),
-         'diorama': diorama(), 'furniture': furniture(), 'exterior': exterior()}
+         'diorama': diorama(), 'furniture': furniture(), 'divided': divided(), 'park': park(), 'exterior': exterior()}
 
 
 def gltf(name, room):

@@ -23,6 +23,12 @@ $ retex-import -q turned.gltf --camera 5.784,1.5,-.818:1.799,.9,-.116:75 -o turn
 > as expected
 $ retex-import -q diorama.gltf -o diorama && offers diorama | judge judge diorama
 > as expected
+# A partition that has the walls behind it is none. A material that the ceiling has too is not that of all walls.
+$ retex-import -f --targets divided.gltf --camera 2.4,1.5,-3.9:2.4,1,-1:75 -o divided 2>/dev/null | cut -f1
+> Floor
+> Wall
+$ offers divided | judge judge divided
+> as expected
 # A new floor lies along the walls, also where the room is turned.
 $ retex-import -qf boards.gltf --exposure 0 --camera 4.6,1.5,-3.6:1.5,.9,-1:75 -o boards
 $ retex-import -qf turned.gltf --exposure 0 --camera 5.784,1.5,-.818:1.799,.9,-.116:75 -o turned
@@ -51,8 +57,9 @@ $ sed -n '/ready/,/#end/p' x/x.pov | sed 's/@[^/]*/@P/g'
 # The bed of tiles is seen between them, and is of the floor.
 $ retex-import -qf --targets tiles.gltf --camera .5,1.5,-3.7:4,.9,-1:75 -o x | grep Floor | sed 's/@[^/]*/@P/g'
 > Floor	@P/level,@P/level	21.6 %
-# Of furniture and of a house with a lawn there is none.
-$ for m in furniture exterior; do retex-import -f --targets $m.gltf -o x 2>&1 | grep 'ready\|level'; grep -c retex_targets x/x.pov; done
+# Of furniture, of a house with a lawn and of trees there is none.
+$ for m in furniture exterior park; do retex-import -f --targets $m.gltf -o x 2>&1 | grep 'ready\|level'; grep -c retex_targets x/x.pov; done
+> 0
 > 0
 > 0
 = 1

@@ -95,18 +95,19 @@ $ cat >shapes.pov <<'END'
 + object { Copied translate <-4,-3,0> }
 + object { Copied translate <-2,-3,1> }
 + object { Copied rotate z*45 translate <3,0,0> }
++ box { <3,2,1>, <3.5,3,1.1> }
 + END
 $ for p in 0:0:4.5 -2:.5:-.1 -1.1:.1:.2 1.5:-2.5:0 .5:-1.5:.01 -3.5:2.5:-.2 -4:2.5:0; do
 +     render -t A=@$p/object shapes.pov -o b.exr && told b.exr
 + done
-> #1 72.14%
+> #1 71.09%
 > #2 6.77%
 > #2 6.77%
 > #4 8.33%
 > #4 8.33%
 > #5 2.08%
 > #5 2.08%
-$ for p in 1.5:-2.5:0 .5:-1.5:.01 1:-2:0 -4:2.5:0 -3.3:-2.8:.2 -1.9:-2.1:.9 3:.5:.1; do
+$ for p in 1.5:-2.5:0 .5:-1.5:.01 1:-2:0 -4:2.5:0 3:2.5:1 -3.3:-2.8:.2 -1.9:-2.1:.9 3:.5:.1; do
 +     for s in flat level; do render -t A=@$p/$s shapes.pov -o b.exr && told b.exr; done
 + done
 > #4/flat:1 8.33%
@@ -117,10 +118,12 @@ $ for p in 1.5:-2.5:0 .5:-1.5:.01 1:-2:0 -4:2.5:0 -3.3:-2.8:.2 -1.9:-2.1:.9 3:.5
 > #4/level:1 21.61%
 > #5/flat:1 0.00%
 > #5/level:1 0.00%
+> #9/flat:5 1.04%
+> #9/level:5 3.12%
 > #6/flat:1 2.08%
 > #6/level:1 21.61%
 > #7/flat:1 2.08%
-> #7/level:2 2.08%
+> #7/level:2 3.12%
 > #8/flat:1 2.34%
 > #8/level:1 21.61%
 # What cannot be.
