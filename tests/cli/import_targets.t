@@ -29,6 +29,9 @@ $ retex-import -f --targets divided.gltf --camera 2.4,1.5,-3.9:2.4,1,-1:75 -o di
 > Wall
 $ offers divided | judge judge divided
 > as expected
+$ retex-import -f --targets divided.gltf --camera .4,1.5,-3.7:4.5,.3,-1:75 -o x 2>/dev/null | cut -f1
+> Floor
+> Wall
 # A new floor lies along the walls, also where the room is turned.
 $ retex-import -qf boards.gltf --exposure 0 --camera 4.6,1.5,-3.6:1.5,.9,-1:75 -o boards
 $ retex-import -qf turned.gltf --exposure 0 --camera 5.784,1.5,-.818:1.799,.9,-.116:75 -o turned
