@@ -162,12 +162,12 @@ $ for value in $(retex-combine --complete --texture:wrap= | cut -f1 | sed 's/.*=
 
 # retex: commands, and what their tools say.
 $ retex --complete '' | cut -f1 | tr '\n' ' '
-> import render denoise sample combine pack info diff serve studio help
+> try import render denoise sample combine pack info diff serve studio help
 $ retex --complete --
 > --help	print this help and exit
 > --version	print the version and exit
 $ retex --complete help '' | cut -f1 | tr '\n' ' '
-> import render denoise sample combine pack info diff serve studio
+> try import render denoise sample combine pack info diff serve studio
 $ retex --complete combine room.exr --texture ''
 > Floor=	40.0 % of the picture
 > Wall=	40.0 % of the picture
@@ -190,6 +190,7 @@ $ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr &&
 > a root/usr/share/bash-completion/completions/retex-sample
 > a root/usr/share/bash-completion/completions/retex-serve
 > a root/usr/share/bash-completion/completions/retex-studio
+> a root/usr/share/bash-completion/completions/retex-try
 > a root/usr/share/fish/vendor_completions.d/retex-combine.fish
 > a root/usr/share/fish/vendor_completions.d/retex-denoise.fish
 > a root/usr/share/fish/vendor_completions.d/retex-diff.fish
@@ -200,6 +201,7 @@ $ "$TESTS/../install/stage.sh" install "$PWD/a root" /usr &&
 > a root/usr/share/fish/vendor_completions.d/retex-sample.fish
 > a root/usr/share/fish/vendor_completions.d/retex-serve.fish
 > a root/usr/share/fish/vendor_completions.d/retex-studio.fish
+> a root/usr/share/fish/vendor_completions.d/retex-try.fish
 > a root/usr/share/fish/vendor_completions.d/retex.fish
 > a root/usr/share/zsh/site-functions/_retex
 $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-completion/completions" | tee bash.txt

@@ -13,6 +13,8 @@ const IMPORT = [
   [/^camera (\d+) of (\d+) is used/, "The file has $2 cameras; number $1 is used."],
   [/^no light in the model, and no opening/, "The file has no light, and nothing lets light in: a lamp was put below the ceiling."],
   [/^the picture will be black, or nearly so/, "Next to nothing lights this model: its pictures will be black, or nearly so. Give it a light in the program that made it, and open it again.", true],
+  [/^other views: /, "There are other views than the first one: they are in the step View."],
+  [/^the camera .* sees nothing, or a wall/, "The file's camera sees nothing, or a wall before it: another view was chosen."],
   [/^the light of the model comes by few ways/, "The light of this model comes through gaps, or from a lamp in a housing, and would be spots in pictures: soft light was added."],
   [/^the model has no sky/, "There was nothing behind the model: a soft sky was added."],
   [/^the light of the model reaches (\d+) %/, "The light of this model reaches only $1 % of the picture: soft light was added."],
