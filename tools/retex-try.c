@@ -42,6 +42,7 @@ typedef struct Job {
     double seconds;
     int force, in_place; /* in_place: the page goes into a folder that is there */
     int has_wall;        /* Wall is a target, too */
+    char view[16];       /* another one of those that the scene declares; "": its first */
 } Job;
 
 static void take_size(Cli *cli, const CliOption *option, void *member)
@@ -221,13 +222,57 @@ static int is_told(const Job *job, const char *name)
     return 0;
 }
 
-static void find_targets(const Cli *cli, Job *job)
+static void add_view(const Job *job)
+{
+    if (job->view[0])
+        command_addf(&command, "--camera=%s", job->view);
+}
+
+static Listed list_targets(const Job *job)
 {
     Listed listed = {0};
     command_begin(&command, "retex-render");
-    add("--list-targets"), add("--"), add_made(job, "", "room/room.pov");
+    add("--list-targets"), add_view(job), add("--"), add_made(job, "", "room/room.pov");
     command_run(&command, "What can get another texture.", take_listed, &listed);
-    const char *seen = listed.count ? cli_plain(listed.seen) : "no surfaces";
+    cli_plain(listed.seen);
+    return listed;
+}
+
+/* Whether the scene that was imported declares a camera of this name. */
+static int has_view(const char *name)
+{
+    char path[PATH_MAX + 16], declared[64], line[256];
+    int found = 0;
+    snprintf(path, sizeof path, "%s/room/room.pov", work);
+    snprintf(declared, sizeof declared, "#declare %s = camera", name);
+    FILE *scene = fopen(path, "r");
+    while (scene && !found && fgets(line, sizeof line, scene))
+        found = strncmp(line, declared, strlen(declared)) == 0;
+    if (scene)
+        fclose(scene);
+    return found;
+}
+
+/* If the first view has no floor, the next best one that has, unless the user has chosen it. */
+static Listed look_round(Job *job)
+{
+    Listed listed = list_targets(job);
+    for (int k = 2; !(listed.floor > 0) && !is_told(job, FLOOR) && !job->camera; k++) {
+        snprintf(job->view, sizeof job->view, "View_%d", k);
+        if (!has_view(job->view)) {
+            job->view[0] = '\0';
+            break;
+        }
+        command.total++;
+        listed = list_targets(job);
+    }
+    return listed;
+}
+
+static void find_targets(const Cli *cli, Job *job)
+{
+    const Listed listed = look_round(job);
+    const char *seen = listed.count ? listed.seen : "no surfaces";
     if (!(listed.floor > 0) && !is_told(job, FLOOR))
         cli_die(cli,
                 "no floor is seen: choose another view, --camera inside or X,Y,Z:X,Y,Z, or say what the floor is, "
@@ -248,6 +293,7 @@ static void begin_render(const Job *job)
         add("-t"), add(WALL);
     for (int i = 0; i < job->ntargets; i++)
         add("-t"), add(job->targets[i]);
+    add_view(job);
     if (job->size[0])
         command_addf(&command, "--size=%dx%d", job->size[0], job->size[1]);
 }

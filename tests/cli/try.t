@@ -117,6 +117,31 @@ $ mkdir bin && cp "$(command -v retex-try)" bin && bin/retex-try -q plate.obj oa
 = 2
 $ left
 
+# Where the first view shows no floor, the next one that does is taken.
+$ for tool in render combine pack; do ln -s "$(command -v retex-$tool)" bin; done; ln -s "$(dirname "$(command -v retex)")/../lib" lib
+$ cat >bin/retex-import <<'END'
++ #!/bin/sh
++ mkdir room
++ cat >room/room.pov <<'SCENE'
++ #declare View_2 = camera { location y look_at y + z angle 10 }
++ #declare View_3 = camera { location y look_at z }
++ camera { location y look_at 2 * y }
++ light_source { 9 * y 1 }
++ #declare Floor = texture { pigment { color rgb .5 } }
++ plane { y, 0 texture { Floor } clipped_by { box { -9, 9 } } }
++ SCENE
++ END
+$ chmod +x bin/retex-import && bin/retex-try plate.obj tan -o none --size 32x24 --spp 2 2>/dev/null | grep -e '^# ' -e ' -t '
+> # 1 of 5: A scene of the model, with a view and light.
+> # 2 of 5: What can get another texture.
+> # 3 of 6: What can get another texture.
+> # 4 of 7: What can get another texture.
+> # 5 of 7: A set: the light of the room, which is the same for all textures.
+> retex-render -t Floor --camera=View_3 --size=32x24 --spp=2 --denoise -o room.exr -- room/room.pov
+> # 6 of 7: A picture with the new textures, and a preset, which says how they lie.
+> # 7 of 7: A web page, in which visitors choose others.
+$ rm -r none
+
 # Ended by a signal it leaves nothing, and says so once; in a folder that is there, the old room stays.
 $ cat >end <<'END'
 + signal=$1
