@@ -20,6 +20,7 @@
 #include "import/base/look_text.h"
 
 #define PICTURE ".look.exr"
+#define LEAST_REFLECTANCE 0.02 /* less is black, or shines itself */
 #define DARK_CARD 0.18 /* of a meter of incident light: the least reflectance of what is seen that it is set to */
 #define BRIGHT_CARD 0.45
 #define DARKEST 0.0039 /* 5 % of the range of sRGB */
@@ -36,7 +37,7 @@ typedef struct Seen {
     Block blocks[BLOCKS];
     int count; /* of blocks that show surfaces */
     double bright; /* nine tenths of them are darker */
-    double stops;  /* that bring them to their reflectance, and no more than a tenth of them to white */
+    double stops;  /* that bring them to about their reflectance */
     double dark, white; /* shares of them: dark after that; white as they are */
     int empty;       /* pixels without a surface */
     double backdrop; /* the mean of their light */
@@ -162,9 +163,23 @@ static int compare_light(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* What shines itself, such as panes with a picture of the sky, need not be in the range: only what reflects light is
+ * judged, if it is a third of what is seen. With baked light, nothing reflects. */
+static void leave_out_what_shines(Seen *seen)
+{
+    int count = 0, kept = 0;
+    for (int i = 0; i < seen->count; i++)
+        count += seen->blocks[i].reflectance > LEAST_REFLECTANCE;
+    for (int i = 0; i < seen->count && 3 * count >= seen->count; i++)
+        if (seen->blocks[i].reflectance > LEAST_REFLECTANCE)
+            seen->blocks[kept++] = seen->blocks[i];
+    seen->count = kept ? kept : seen->count;
+}
+
 static void meter(Seen *seen)
 {
     double sum = 0, reflectance = 0, faint = 0, pixels = 0;
+    leave_out_what_shines(seen);
     qsort(seen->blocks, (size_t)seen->count, sizeof *seen->blocks, compare_light);
     seen->bright = seen->count ? seen->blocks[9 * seen->count / 10].light : 0;
     seen->dark = !(seen->bright > 0);
@@ -175,11 +190,12 @@ static void meter(Seen *seen)
         reflectance += seen->blocks[i].reflectance / seen->count;
     }
     const double card = fmin(fmax(reflectance, DARK_CARD), BRIGHT_CARD);
-    seen->stops = fmin(log2(card) - sum / seen->count, log2(BRIGHTEST / seen->bright));
+    seen->stops = log2(card) - sum / seen->count;
+    seen->stops += fmax(fmin(log2(BRIGHTEST / seen->bright) - seen->stops, 0), -1); /* windows may be white */
     for (int i = 0; i < seen->count; i++) {
         const Block *b = &seen->blocks[i];
         const int is_dark = b->light * exp2(seen->stops) < DARKEST;
-        seen->dark += (is_dark && b->reflectance > 0.02) / (double)seen->count; /* black things may be */
+        seen->dark += (is_dark && b->reflectance > LEAST_REFLECTANCE) / (double)seen->count; /* black things may be */
         seen->white += (b->light > BRIGHTEST) / (double)seen->count;
         faint += is_dark ? 0 : b->faint, pixels += is_dark ? 0 : b->pixels;
     }
