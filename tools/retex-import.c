@@ -393,18 +393,17 @@ static void begin_folder(const Cli *cli, const char *folder)
 
 static void tell_look(const Cli *cli, const Look *look, const char *name)
 {
-    if (look->added > 0 && look->is_noisy)
+    if (look->added && look->is_noisy)
         cli_info(cli,
                  "the light of the model comes by few ways, as of a lamp in a housing or a sun behind glass, and is "
-                 "noise in the picture: light is added, Added_light in %s.pov, 0 without",
-                 name);
-    else if (look->added > 0 && look->is_bare)
-        cli_info(cli, "the model has no sky: one is added, Added_light in %s.pov, 0 without", name);
-    else if (look->added > 0)
+                 "noise in the picture: light is added, %s in %s.pov, 0 without",
+                 look->added, name);
+    else if (look->added && look->is_bare)
+        cli_info(cli, "the model has no sky: one is added, %s in %s.pov, 0 without", look->added, name);
+    else if (look->added)
         cli_info(cli,
-                 "the light of the model reaches %.0f %% of what is seen: light is added, Added_light in %s.pov, 0 "
-                 "without",
-                 100 * look->lit, name);
+                 "the light of the model reaches %.0f %% of what is seen: light is added, %s in %s.pov, 0 without",
+                 100 * look->lit, look->added, name);
     if (!look->is_seen)
         cli_warn(cli, "nothing is seen in the picture: --camera chooses another view");
     else if (look->is_black)

@@ -33,7 +33,7 @@ $ import lamp -f --exposure dark
 # Light that is next to none gets some beside it, which can be turned off again; a sky is light, too.
 $ for m in speck out; do
 +     import $m; render $m
-+     sed -i '/Added_light =/s/= .*;/= 0;/' $m/$m.pov; render $m
++     sed -i '/Added_[a-z]* =/s/= .*;/= 0;/' $m/$m.pov; render $m
 + done
 > retex-import: the light of the model reaches 0 % of what is seen: light is added
 > speck: as a floor

@@ -39,7 +39,7 @@ static void begin_orders(Fixture *f, int paper, int orders)
                              .ntiles = 1,
                              .layout = paper ? &paper_layout : &footprints_layout};
     f->params.clusters = 2, f->params.sharp = f->params.broad = 1;
-    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .split = 1, .nvariants = 1};
+    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .split = 1, .nvariants = 1, .exposure = 1};
     test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
     test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
     f->worker.context = &f->context, f->worker.pixel = f->pixel;

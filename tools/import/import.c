@@ -173,7 +173,8 @@ static int write_scene(Import *import, RetexError *err)
     char path[PATH_MAX], *materials = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&materials, &size);
-    const int is_ready = memory && names_make(&import->names, "Added_light", "", (char[NAME_SIZE]){0});
+    const int is_ready = memory && names_make(&import->names, LOOK_ADDED_SKY, "", (char[NAME_SIZE]){0}) &&
+                         names_make(&import->names, LOOK_ADDED_LAMP, "", (char[NAME_SIZE]){0});
     int code = is_ready ? materials_write(import, memory, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
     if (!code)
         code = variants_write(import, memory, err);

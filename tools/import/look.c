@@ -275,7 +275,7 @@ int look_expose(const LookParams *params, double stops, RetexError *err)
 
 static int is_bare(const Seen *seen)
 {
-    return seen->empty > WIDTH * HEIGHT / 5 && seen->backdrop < seen->bright / 256;
+    return seen->empty > WIDTH * HEIGHT / 5 && seen->backdrop < seen->bright / 32;
 }
 
 /* Light is enough if most of what is seen can be exposed. */
@@ -294,12 +294,22 @@ static double added_to(const Seen *seen)
     return fmax(1, fmin((seen->is_noisy ? 4 : 1) * mean / 0.2, 1e5));
 }
 
+/* The sky first, which lights more than one room; where it is not enough or not there, a lamp. */
 static int add_light(Look *look, const LookParams *params, Seen *seen, RetexError *err)
 {
-    const double added = added_to(seen);
-    int code = put_number(params, LOOK_ADDED_LIGHT, LOOK_ADDED_LIGHT_FORMAT, added, err);
-    look->added = code ? 0 : added;
-    return code ? code : see(params, seen, err);
+    static const struct {
+        const char *name, *declared;
+    } lights[] = {{LOOK_ADDED_SKY, LOOK_DECLARE(LOOK_ADDED_SKY)}, {LOOK_ADDED_LAMP, LOOK_DECLARE(LOOK_ADDED_LAMP)}};
+    int code = RETEX_OK;
+    for (int i = 0; i < 2 && !code && !is_enough(seen, params); i++) {
+        if (number_after(params, lights[i].declared, "", NAN) != 0)
+            continue;
+        code = put_number(params, lights[i].declared, LOOK_ADDED_FORMAT, added_to(seen), err);
+        look->added = lights[i].name;
+        if (!code)
+            code = see(params, seen, err);
+    }
+    return code;
 }
 
 int look_at(Look *look, const LookParams *params, RetexError *err)
@@ -312,7 +322,7 @@ int look_at(Look *look, const LookParams *params, RetexError *err)
     look->is_seen = seen.count > 0, look->is_noisy = seen.is_noisy;
     look->lit = seen.stops < MOST_STOPS ? 1 - seen.dark : 0;
     look->is_bare = is_bare(&seen) && params->is_framed;
-    if (look->is_seen && !is_enough(&seen, params) && number_after(params, LOOK_ADDED_LIGHT, "", NAN) == 0)
+    if (look->is_seen)
         code = add_light(look, params, &seen, err);
     look->is_black = !(seen.bright > 0) || seen.stops >= MOST_STOPS;
     if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.dark < 0.1 && seen.white < 0.1))

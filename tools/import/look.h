@@ -21,7 +21,7 @@ typedef struct LookParams {
 
 typedef struct Look {
     double exposure; /* stops, in the scene now */
-    double added;    /* of the light that the model lacks, in the scene now */
+    const char *added; /* what is declared for the light that was added last, or NULL */
     double lit;      /* share of what is seen, after exposure, that is brighter than 5 % of the range, by own light */
     int is_seen;     /* any surface is */
     int is_bare;     /* things are seen before black */

@@ -5,7 +5,9 @@
 
 #define LOOK_EXPOSURE "retex_exposure "
 #define LOOK_EXPOSURE_FORMAT "%+7.2f"
-#define LOOK_ADDED_LIGHT "#declare Added_light = "
-#define LOOK_ADDED_LIGHT_FORMAT "%10.3f"
+#define LOOK_ADDED_SKY "Added_sky"
+#define LOOK_ADDED_LAMP "Added_lamp"
+#define LOOK_DECLARE(name) "#declare " name " = "
+#define LOOK_ADDED_FORMAT "%10.3f"
 
 #endif

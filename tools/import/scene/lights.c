@@ -146,20 +146,21 @@ static int write_sky(Import *import, FILE *out, RetexError *err)
  * ceiling. Those that have some get it switched off, and tools/import/look.h finds out whether it is needed. */
 static int write_added(Import *import, FILE *out, int has_light, RetexError *err)
 {
-    int is_dark = 0, is_below_ceiling = 0;
+    int is_dark = 0, has_lamp = 0;
     int code = ceiling_is_needed(import, &is_dark, err);
     if (code)
         return code;
-    fprintf(out, "// Light that the model lacks: how bright it is, 0 where it has enough of its own.\n"
-                 LOOK_ADDED_LIGHT LOOK_ADDED_LIGHT_FORMAT ";\n#if (Added_light > 0)\n", has_light ? 0.0 : 1.0);
-    if (is_dark)
-        code = ceiling_write(import, out, &is_below_ceiling, err);
-    if (!is_below_ceiling)
-        fprintf(out, "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_light] [1 rgb Added_light] } "
-                     "scale 2 translate -y } }\n");
-    fprintf(out, "#end\n\n");
+    fprintf(out, "// Light that the model lacks: how bright it is, 0 where there is enough without.\n");
+    code = ceiling_write(import, out, is_dark && !has_light, &has_lamp, err);
+    if (!is_dark || !has_lamp)
+        fprintf(out,
+                LOOK_DECLARE(LOOK_ADDED_SKY) LOOK_ADDED_FORMAT ";\n#if (" LOOK_ADDED_SKY " > 0)\n"
+                "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*" LOOK_ADDED_SKY "] [1 rgb " LOOK_ADDED_SKY
+                "] } scale 2 translate -y } }\n#end\n",
+                has_light ? 0.0 : 1.0);
+    fprintf(out, "\n");
     if (!code && !has_light)
-        import_tell(import, IMPORT_INFO, is_below_ceiling
+        import_tell(import, IMPORT_INFO, is_dark && has_lamp
                                              ? "no light in the model, and no opening in the room: a light below the "
                                                "ceiling, Ceiling_light, lights it"
                                              : "no light in the model: a soft sky lights it");

@@ -21,8 +21,8 @@ int lights_write(Import *import, FILE *out, RetexError *err);
 
 /* Whether the model is a room that no sky can light. */
 int ceiling_is_needed(const Import *import, int *is_needed, RetexError *err);
-/* A lamp below the ceiling, if there is a place for it. */
-int ceiling_write(Import *import, FILE *out, int *is_written, RetexError *err);
+/* A lamp below the ceiling of a room, if there is a place for it; of strength 0, it is off. */
+int ceiling_write(Import *import, FILE *out, double strength, int *is_written, RetexError *err);
 
 int cameras_write(Import *import, FILE *out, RetexError *err);
 

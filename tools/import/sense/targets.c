@@ -314,7 +314,7 @@ static double wall_score(const Search *s, const Plane *plane, double ground)
     const double tall = plane->high[1] - fmax(plane->low[1], ground);
     const int stands = plane->low[1] < ground + 0.35 * metre;
     const double behind = share_behind(s, plane);
-    if (tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45)
+    if (tall < 1.2 * metre || wide < 0.6 * metre || behind > 0.45 || plane->seen < 0.025) /* as posts are */
         return 0;
     return plane->seen * (stands ? 1 : 0.3) * (1 - 2 * behind) * fmin(tall / (1.9 * metre), 1) *
            exp2(1.5 * plane->named);
