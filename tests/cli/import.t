@@ -84,10 +84,10 @@ $ cat own/own.pov
 >
 > // ---- light ----
 >
-> // Light that the model lacks: how bright it is, 0 where it has enough of its own.
-> #declare Added_light =      1.000;
-> #if (Added_light > 0)
-> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_light] [1 rgb Added_light] } scale 2 translate -y } }
+> // Light that the model lacks: how bright it is, 0 where there is enough without.
+> #declare Added_sky =      1.000;
+> #if (Added_sky > 0)
+> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3*Added_sky] [1 rgb Added_sky] } scale 2 translate -y } }
 > #end
 >
 > // ---- materials: each can be a target of retexturing ----
@@ -244,7 +244,7 @@ $ retex-import --exposure 0 names.obj -o names && grep declare names/names.pov
 > #declare View_2 = camera {
 > #declare View_3 = camera {
 > #declare View_4 = camera {
-> #declare Added_light =      1.000;
+> #declare Added_sky =      1.000;
 > #declare Sphere = texture {
 > #declare Sphere_2 = texture {
 > #declare Material_2nd = texture {
