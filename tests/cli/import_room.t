@@ -196,15 +196,15 @@ $ for m in dark hidden window glass lamp; do
 +     echo $(grep -c '^sky_sphere' x/x.pov) $(grep -c 'declare Ceiling_light' x/x.pov) $(grep -o 'Added_[a-z]* = .*;' x/x.pov)
 + done
 > no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
-> 0 1 X
+> 0 1 Added_lamp = 1.000;
 > none
-> 0 1 X
+> 0 1 Added_lamp = 0.000;
 > no light in the model: a soft sky lights it
-> 1 0 X
+> 1 1 Added_lamp = 0.000; Added_sky = 1.000;
 > no light in the model: a soft sky lights it
-> 1 0 X
+> 1 1 Added_lamp = 0.000; Added_sky = 1.000;
 > none
-> 0 1 X
+> 0 1 Added_lamp = 0.000;
 $ retex-render -q --spp 16 --size 64x48 dark/dark.pov -t Floor --lamp Ceiling_light -o dark.exr &&
 +     retex-combine -q --auto-exposure dark.exr -o dark.png && oiiotool --stats dark.png |
 +     awk '/Avg/ { print ($3 > 80 && $3 < 180) }'
