@@ -89,7 +89,8 @@ static int sees(const Space *space, const double eye[3], const double at[3])
 }
 
 /* Below the ceiling, where most is free around, of places that the eye sees: what is in the picture may be one room of
- * several. Where it sees none, or there is no room as a whole, above the eye. Returns 0 where there is no such place. */
+ * several. Where it sees none, or there is no room as a whole, above the eye. Returns 0 where there is no such place.
+ */
 static int find_rectangle(const Room *room, int is_room, const double eye[3], Rectangle *to)
 {
     const double up[3] = {0, 1, 0}, down[3] = {0, -1, 0};
