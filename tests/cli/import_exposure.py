@@ -15,7 +15,7 @@ def square(size, height, up):
     return b''.join(struct.pack('<3f', *c) for c in (corners if up else corners[::-1]))
 
 
-def write(name, size=None, strength=0, intensity=None, camera=True):
+def write(name, size=None, strength=0, intensity=None, camera=(-.13, 0, 0, .9915), cone=None):
     data = square(10, 0, True) + square(size or 1, 2, False) + struct.pack('<6H', 0, 1, 2, 0, 2, 3)
     nodes = [{'mesh': 0}]
     model = {'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': nodes,
@@ -37,9 +37,13 @@ def write(name, size=None, strength=0, intensity=None, camera=True):
     if intensity is not None:
         used.append('KHR_lights_punctual')
         nodes.append({'translation': [0, 2, 0], 'extensions': {'KHR_lights_punctual': {'light': 0}}})
-        model['extensions'] = {'KHR_lights_punctual': {'lights': [{'type': 'point', 'intensity': intensity}]}}
+        light = {'type': 'point', 'intensity': intensity}
+        if cone:
+            light = {'type': 'spot', 'intensity': intensity, 'spot': {'outerConeAngle': cone}}
+            nodes[-1]['rotation'] = [-.5**.5, 0, 0, .5**.5]
+        model['extensions'] = {'KHR_lights_punctual': {'lights': [light]}}
     if camera:
-        nodes.append({'translation': [0, 4, 12], 'rotation': [-.13, 0, 0, .9915], 'camera': 0})
+        nodes.append({'translation': [0, 4, 12], 'rotation': camera, 'camera': 0})
         model['cameras'] = [{'type': 'perspective', 'perspective': {'yfov': .8, 'znear': .1}}]
     model['scenes'][0]['nodes'] = list(range(len(nodes)))
     model['extensionsUsed'] = used
@@ -58,7 +62,8 @@ def judge(path):
     picture = luminance(path)
     seen = picture[picture > 0]
     mean = np.exp2(np.mean(np.log2(np.maximum(seen, np.quantile(seen, .9) / 256)))) if len(seen) else 0
-    return 'black' if mean < 1 / 500 else 'as a floor' if .12 < mean < .6 else 'light'
+    white = ', white' if np.mean(seen > .89) > .12 else ''
+    return ('black' if mean < 1 / 500 else 'as a floor' if .12 < mean < .6 else 'light') + white
 
 
 if len(sys.argv) > 1:
@@ -71,4 +76,6 @@ else:
     write('dim', intensity=.5)
     write('bright', intensity=683 * 1e5)
     write('label', 1, .5)
-    write('framed', intensity=683 * 20, camera=False)
+    write('framed', intensity=683 * 20, camera=None)
+    write('spot', intensity=683 * 20, cone=.15)
+    write('blind', intensity=683 * 20, camera=(0, 1, 0, 0))

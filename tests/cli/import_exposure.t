@@ -23,7 +23,11 @@ $ grep -c 'retex_exposure *+0.00' panel/panel.pov label/label.pov
 > panel/panel.pov:1
 > label/label.pov:1
 
-# So does what a user says.
+# Where most of what is seen is dark, light is added; a camera that looks away is not taken.
+$ import spot
+$ retex-import blind.gltf -o blind 2>&1 | grep -o 'the camera .* sees nothing'
+
+# What a user says stays.
 $ import lamp -f --exposure -3
 $ grep -o 'retex_exposure *[-+0-9.]*' lamp/lamp.pov
 > retex_exposure   -3.00
