@@ -62,7 +62,7 @@ def judge(path):
     picture = luminance(path)
     seen = picture[picture > 0]
     mean = np.exp2(np.mean(np.log2(np.maximum(seen, np.quantile(seen, .9) / 256)))) if len(seen) else 0
-    white = ', white' if np.mean(seen > .89) > .12 else ''
+    white = ', white' if np.sum(seen > .89) > .12 * len(seen) else ''
     return ('black' if mean < 1 / 500 else 'as a floor' if .12 < mean < .6 else 'light') + white
 
 
