@@ -25,7 +25,9 @@ $ grep -c 'retex_exposure *+0.00' panel/panel.pov label/label.pov
 
 # Where most of what is seen is dark, light is added; a camera that looks away is not taken.
 $ import spot
+> retex-import: the light of the model reaches 0 % of what is seen: light is added
 $ retex-import blind.gltf -o blind 2>&1 | grep -o 'the camera .* sees nothing'
+> the camera Camera_nodes_2 sees nothing
 
 # What a user says stays.
 $ import lamp -f --exposure -3
