@@ -34,7 +34,7 @@
 enum { MOST_FOLDERS = 32, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
 
 /* Where the user says nothing: models of 360000 triangles take 2 s and 300 MB. */
-enum { READ_SECONDS = 300, READ_GIGABYTES = 8 };
+enum { READ_SECONDS = 300, READ_GIGABYTES = 8, LOOK_SECONDS = 60 /* at the scene */ };
 
 typedef struct Request {
     ImportOptions import;
@@ -421,7 +421,7 @@ static void look(const Cli *cli, const Request *r)
                                .name = r->import.name,
                                .is_framed = is_framed,
                                .max_pixels = r->import.max_pixels,
-                               .seconds = cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS,
+                               .seconds = cli->limits.seconds > 0 ? cli->limits.seconds : LOOK_SECONDS,
                                .memory = retex_budget_memory(cli->budget),
                                .renderer = &child};
     Look seen = {0};
