@@ -122,10 +122,5 @@ int sense_find(Import *import, RetexError *err)
         code = find_room(sense, known, options->unit || options->is_scaled, &why);
     if (!code && sense->space)
         code = find_unit(import, sense, is_said, &why);
-    if (code == RETEX_ENOMEM) { /* the scene is written all the same */
-        import_tell(import, IMPORT_WARNING, "too little memory to see whether the model is a room");
-        sense_free(import);
-        return RETEX_OK;
-    }
     return code ? retex_fail(err, code, "%s", why.message) : RETEX_OK;
 }
