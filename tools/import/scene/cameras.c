@@ -232,7 +232,7 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
     if (is_framed || chosen < 0)
         return framing_write(import, out, err);
     place(import, chosen, import->eye, import->target, (double[3]){0});
-    import->angle = view_of(import, chosen).angle * 180 / PI;
+    import->angle = lens_of(import, chosen).angle * 180 / PI;
     const char *used = cameras->names[chosen];
     if (cameras->count > 1)
         import_tell(import, IMPORT_INFO, "camera %d of %d is used, %s; --camera takes another one", chosen + 1,
