@@ -70,7 +70,7 @@ $ for m in furniture exterior park; do retex-import -f --targets $m.gltf -o x 2>
 # Seen by a camera of the model, they have the share that the renderer finds.
 $ /usr/bin/python3 -c 'import json
 + m = json.load(open("boards.gltf"))
-+ m["nodes"].append({"camera": 0, "translation": [0, 1.5, 0], "rotation": [-.1, 0, 0, .995]})
++ m["nodes"].append({"camera": 0, "translation": [2.4, 1.5, 3.5], "rotation": [-.1, 0, 0, .995]})
 + m["scenes"][0]["nodes"].append(len(m["nodes"]) - 1)
 + m["cameras"] = [{"type": "perspective", "perspective": {"yfov": .8, "aspectRatio": 1.3333, "znear": .1}}]
 + json.dump(m, open("own.gltf", "w"))'
