@@ -46,7 +46,7 @@ int ceiling_is_needed(const Import *import, int *is_needed, RetexError *err)
 
 typedef struct Rectangle {
     double at[3], half[2]; /* its middle, and half of its sides in x and z */
-    double area, walls;    /* of the ceiling and of all that is around, as far as it is free */
+    double walls;          /* the area of all that is around, as far as it is free */
 } Rectangle;
 
 /* How far it is free from a place to both sides along x, z and between; the least of it. */
@@ -73,7 +73,7 @@ static double try_place(const Space *space, const double at[3], double height, d
         return 0;
     to->half[0] = 0.4 * fmin(around[0], around[4]), to->half[1] = 0.4 * fmin(around[2], around[6]);
     const double x = around[0] + around[4], z = around[2] + around[6];
-    to->area = x * z, to->walls = 2 * x * z + 2 * (x + z) * height;
+    to->walls = 2 * x * z + 2 * (x + z) * height;
     for (int k = 0; k < 3; k++)
         to->at[k] = at[k];
     return least;
@@ -132,7 +132,7 @@ static double radiance_of(const Rectangle *r)
 
 int ceiling_write(Import *import, FILE *out, double strength, int *is_written, RetexError *err)
 {
-    Rectangle r = {.area = 0};
+    Rectangle r = {.walls = 0};
     char name[NAME_SIZE];
     *is_written = 0;
     const Sense *sense = import->sense;
