@@ -39,19 +39,22 @@ def walk(page, server):
 
 
 def boxes(work, *bounds):
-    """Closed boxes as OBJ, each of its low and high corners."""
+    """Closed boxes as OBJ, each of its low and high corners, the second of them black: added light does not show within."""
+    with open(f"{work}/boxes.mtl", "w", encoding="utf-8") as file:
+        file.write("newmtl Grey\nKd 0.5 0.5 0.5\nnewmtl Black\nKd 0 0 0\nKs 0 0 0\n")
     with open(f"{work}/boxes.obj", "w", encoding="utf-8") as file:
+        print("mtllib boxes.mtl", file=file)
         for number, (low, high) in enumerate(bounds):
             for k in range(8):
                 print("v", *((low, high)[k >> axis & 1][axis] for axis in (2, 1, 0)), file=file)
-            print(f"o Box{number}", file=file)
+            print(f"o Box{number}\nusemtl {'Black' if number == 1 else 'Grey'}", file=file)
             for face in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)):
                 print("f", *(8 * number + k + 1 for k in face), file=file)
     return "boxes.obj"
 
 
 def find_black(page, work):
-    """An eye within a closed box."""
+    """An eye within a closed black box."""
     own_project(work, boxes(work, ((0, 0, 0), (4, .1, 4)), ((1, .1, 1), (2, 1, 2)), ((3, .1, 2), (3.5, .6, 3))),
                 **{"import": {"camera": "1.5,0.5,-1.5:1.8,0.5,-1.5"}})
     server = Server(work, model="boxes.obj")
