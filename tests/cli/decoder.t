@@ -104,3 +104,14 @@ $ for f in t.png few.tif s.exr; do
 $ retex-combine -q s.exr --texture floor=t.png -o any.exr
 $ cmp -s any.exr safe.exr
 = 1
+
+# One that goes through OpenImageIO, as it is turned by Exif, and is larger than the buffer of a stream.
+$ python3 - "$SCENES/textures/damask.jpg" turned.jpg <<'END'
++ import sys
++ data = open(sys.argv[1], "rb").read()
++ exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x03\0\0\0\0\0\0"
++ open(sys.argv[2], "wb").write(data[:2] + b"\xff\xe1" + (len(exif) + 2).to_bytes(2, "big") + exif + data[2:])
++ END
+$ retex-combine -q s.exr --texture floor=turned.jpg -o any.exr
+$ retex-combine --safe -q s.exr --texture floor=turned.jpg -o safe.exr
+$ cmp any.exr safe.exr

@@ -47,8 +47,12 @@ std::string check_targa(const Bytes &data);
 // OpenImageIO's name of the format that a file has by its first bytes, or null: it may be any other.
 const char *format_by_content(const RetexBridgeFile &file);
 
-// Open a file for reading. Throws Failure.
-std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file);
+using Stream = std::unique_ptr<FILE, int (*)(FILE *)>;
+
+// Open a file for reading at a place of its own. Throws Failure.
+Stream open_file(const RetexBridgeFile &file);
+// Open an open file for OpenImageIO, which asks for its descriptor. Throws Failure.
+Stream open_stream(const RetexBridgeFile &file);
 
 // Transforms R,G,B,A pixels in place, from any thread; empty = identity.
 using Transform = std::function<void(float *rgba, long pixels)>;

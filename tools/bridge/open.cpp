@@ -80,7 +80,7 @@ OpenPicture::OpenPicture(const RetexBridgeHost *host, const RetexBridgeFile &fil
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1); // avoids lossy conversions of 8-bit values
     if (file.format) {
-        stream_ = open_file(file);
+        stream_ = open_stream(file);
         open_as(file.format, wish);
     } else {
         in_ = OIIO::ImageInput::open(file.path, &wish);

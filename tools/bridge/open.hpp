@@ -62,7 +62,7 @@ class OpenPicture
     Chunks chunks_;
     std::string damage_;
     std::vector<Area> lost_;
-    std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
+    Stream stream_{nullptr, std::fclose};
     std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
     std::unique_ptr<OIIO::ImageInput> in_; // last member: destroyed first
 };

@@ -150,7 +150,7 @@ const Primaries primaries[] = {
 
 // A curve for each channel, then the matrix from these primaries; curve empty = linear.
 StatedColors by_curve(const RetexBridgeHost *host, Transform curve, const float chromaticities[8],
-                       const std::string &name)
+                      const std::string &name)
 {
     double m[3][3];
     int converted = host->to_rec709(chromaticities, m);
@@ -241,7 +241,7 @@ StatedColors by_gamma(const RetexBridgeHost *host, const Chunks &chunks)
 Chunks read_color_chunks(const RetexBridgeFile &file)
 {
     Chunks chunks;
-    std::unique_ptr<FILE, int (*)(FILE *)> stream = open_file(file);
+    Stream stream = open_file(file);
     uint8_t head[8] = {0};
     if (std::fread(head, 1, sizeof head, stream.get()) != sizeof head || std::memcmp(head, "\x89PNG\r\n\x1a\n", 8) != 0)
         return chunks;
@@ -258,8 +258,8 @@ Chunks read_color_chunks(const RetexBridgeFile &file)
     return chunks;
 }
 
-StatedColors stated_colors(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
-                             size_t profile_bytes, bool is_grey)
+StatedColors stated_colors(const RetexBridgeHost *host, const Chunks &chunks, const void *profile, size_t profile_bytes,
+                           bool is_grey)
 {
     if (chunks.count("cICP"))
         return by_cicp(host, chunks.at("cICP"));

@@ -224,10 +224,11 @@ class Blocks
 
 std::string find_tiff_damage(const RetexBridgeFile &file, std::vector<Area> &lost)
 {
-    auto stream = open_file(file);
+    Stream stream(file.format ? nullptr : open_file(file).release(),
+                  [](FILE *own) { return own ? std::fclose(own) : 0; });
     struct stat status;
     Source source;
-    source.descriptor = fileno(stream.get());
+    source.descriptor = stream ? fileno(stream.get()) : file.descriptor;
     if (fstat(source.descriptor, &status) != 0)
         return "";
     source.size = status.st_size;

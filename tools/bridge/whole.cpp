@@ -80,17 +80,18 @@ class Reader
     // All bytes of the file.
     Bytes all()
     {
-        struct stat status;
-        if (fstat(fileno(file_.get()), &status) != 0 || status.st_size < 0)
+        const off_t size = fseeko(file_.get(), 0, SEEK_END) == 0 ? ftello(file_.get()) : -1;
+        if (size < 0)
             throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
-        Bytes bytes(size_t(status.st_size));
+        Bytes bytes{};
+        bytes.resize(size_t(size));
         rewind();
         bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file_.get()));
         return bytes;
     }
 
   private:
-    std::unique_ptr<FILE, int (*)(FILE *)> file_;
+    Stream file_;
 };
 
 // Whether a JPEG has all segments from after the start-of-image marker to the end-of-image marker. Data without markers
@@ -133,11 +134,30 @@ bool skip_channels(Reader &in, int64_t length)
 // that is told: if these differ, what follows is not what it is taken for.
 bool skip_attribute(Reader &in)
 {
-    static const std::map<std::string, int64_t> sizes = {
-        {"box2f", 16}, {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
-        {"double", 8}, {"envmap", 1}, {"float", 4}, {"int", 4}, {"keycode", 28}, {"lineOrder", 1}, {"m33d", 72},
-        {"m33f", 36}, {"m44d", 128}, {"m44f", 64}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8}, {"v2d", 16},
-        {"v2f", 8}, {"v2i", 8}, {"v3d", 24}, {"v3f", 12}, {"v3i", 12}};
+    static const std::map<std::string, int64_t> sizes = {{"box2f", 16},
+                                                         {"box2i", 16},
+                                                         {"chromaticities", 32},
+                                                         {"compression", 1},
+                                                         {"deepImageState", 1},
+                                                         {"double", 8},
+                                                         {"envmap", 1},
+                                                         {"float", 4},
+                                                         {"int", 4},
+                                                         {"keycode", 28},
+                                                         {"lineOrder", 1},
+                                                         {"m33d", 72},
+                                                         {"m33f", 36},
+                                                         {"m44d", 128},
+                                                         {"m44f", 64},
+                                                         {"rational", 8},
+                                                         {"tiledesc", 9},
+                                                         {"timecode", 8},
+                                                         {"v2d", 16},
+                                                         {"v2f", 8},
+                                                         {"v2i", 8},
+                                                         {"v3d", 24},
+                                                         {"v3f", 12},
+                                                         {"v3i", 12}};
     std::string type;
     if (in.text(&type) < 0)
         return false;
@@ -168,23 +188,64 @@ bool has_all_attributes(Reader &in)
     return false;
 }
 
+// A place in an open file: all copies of a descriptor share one, which OpenImageIO has.
+struct Place {
+    int descriptor;
+    off_t at;
+};
+
+ssize_t read_place(void *cookie, char *to, size_t bytes)
+{
+    auto *place = static_cast<Place *>(cookie);
+    const ssize_t got = pread(place->descriptor, to, bytes, place->at);
+    place->at += got > 0 ? got : 0;
+    return got;
+}
+
+int move_place(void *cookie, off64_t *at, int from)
+{
+    auto *place = static_cast<Place *>(cookie);
+    struct stat status;
+    if (from == SEEK_END && fstat(place->descriptor, &status) != 0)
+        return -1;
+    const off64_t to = *at + (from == SEEK_CUR ? place->at : from == SEEK_END ? status.st_size : 0);
+    if (to < 0)
+        return -1;
+    *at = place->at = to;
+    return 0;
+}
+
+int close_place(void *cookie)
+{
+    delete static_cast<Place *>(cookie);
+    return 0;
+}
+
 } // namespace
 
-std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file)
+Stream open_stream(const RetexBridgeFile &file)
 {
-    const int copy = file.format ? fcntl(file.descriptor, F_DUPFD_CLOEXEC, 3) : -1;
-    std::unique_ptr<FILE, int (*)(FILE *)> stream(!file.format ? std::fopen(file.path, "rb")
-                                                  : copy < 0   ? nullptr
-                                                               : fdopen(copy, "rb"),
-                                                  std::fclose);
+    const int copy = fcntl(file.descriptor, F_DUPFD_CLOEXEC, 3);
+    Stream stream(copy < 0 ? nullptr : fdopen(copy, "rb"), std::fclose);
     if (!stream) {
         const int why = errno;
         if (copy >= 0)
             close(copy);
         throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(why));
     }
+    std::rewind(stream.get());
+    return stream;
+}
+
+Stream open_file(const RetexBridgeFile &file)
+{
+    const cookie_io_functions_t calls = {read_place, nullptr, move_place, close_place};
+    std::unique_ptr<Place> place(new Place{file.descriptor, 0});
+    Stream stream(file.format ? fopencookie(place.get(), "rb", calls) : std::fopen(file.path, "rb"), std::fclose);
+    if (!stream)
+        throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
     if (file.format)
-        std::rewind(stream.get()); // all copies of the descriptor share the file position
+        place.release(); // the stream deletes it
     return stream;
 }
 
@@ -193,11 +254,20 @@ const char *format_by_content(const RetexBridgeFile &file)
     static const struct {
         const char *format;
         std::string mark;
-    } marks[] = {{"png", "\x89PNG\r\n\x1a\n"}, {"jpeg", "\xff\xd8\xff"}, {"gif", "GIF8"},
-                 {"tiff", {"II*\0", 4}},       {"tiff", {"MM\0*", 4}},   {"tiff", {"II+\0", 4}},
-                 {"tiff", {"MM\0+", 4}},       {"dpx", "SDPX"},          {"dpx", "XPDS"},
-                 {"ico", {"\0\0\1\0", 4}},     {"zfile", "\x1f\x8b\b"},  {"zfile", "\xab\x67\b\x2f"},
-                 {"zfile", "\x2f\b\x67\xab"}, {"openexr", "\x76\x2f\x31\x01"}};
+    } marks[] = {{"png", "\x89PNG\r\n\x1a\n"},
+                 {"jpeg", "\xff\xd8\xff"},
+                 {"gif", "GIF8"},
+                 {"tiff", {"II*\0", 4}},
+                 {"tiff", {"MM\0*", 4}},
+                 {"tiff", {"II+\0", 4}},
+                 {"tiff", {"MM\0+", 4}},
+                 {"dpx", "SDPX"},
+                 {"dpx", "XPDS"},
+                 {"ico", {"\0\0\1\0", 4}},
+                 {"zfile", "\x1f\x8b\b"},
+                 {"zfile", "\xab\x67\b\x2f"},
+                 {"zfile", "\x2f\b\x67\xab"},
+                 {"openexr", "\x76\x2f\x31\x01"}};
     auto stream = open_file(file);
     std::string begin(16, '\0');
     begin.resize(std::fread(&begin[0], 1, begin.size(), stream.get()));
