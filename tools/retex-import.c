@@ -393,7 +393,10 @@ static void begin_folder(const Cli *cli, const char *folder)
 
 static void tell_look(const Cli *cli, const Look *look, const char *name)
 {
-    if (look->added && look->is_noisy)
+    if (look->is_balanced)
+        cli_info(cli, "the sky in the windows is much brighter than the room: a lamp is lit, %s in %s.pov, 0 without",
+                 look->added, name);
+    else if (look->added && look->is_noisy)
         cli_info(cli,
                  "the light of the model comes by few ways, as of a lamp in a housing or a sun behind glass, and is "
                  "noise in the picture: light is added, %s in %s.pov, 0 without",

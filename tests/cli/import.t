@@ -23,6 +23,11 @@ $ sed 's/F.png/TEXTURES\\f.PNG/' card.mtl >upper.mtl && sed 's/card.mtl/upper.mt
 +     retex-import --exposure 0 -q upper.obj -o upper && grep -c image_map upper/upper.pov
 > 1
 
+# A line of its materials that Assimp would refuse is left out; what stands behind it is read.
+$ sed '1a anisotropicRotation 0' card.mtl >turns.mtl && sed 's/card.mtl/turns.mtl/' card.obj >turns.obj &&
++     retex-import --exposure 0 -q turns.obj -o turns && grep -c image_map turns/turns.pov
+> 1
+
 # A transform of the texture is one of its UV; a factor of its colours is in a new image.
 $ look turned.gltf && look turned_uv.gltf && retex-diff -q --part albedo --fail-psnr 35 turned.exr turned_uv.exr
 $ look tinted.gltf && look tinted_image.gltf &&
@@ -499,6 +504,11 @@ $ retex-import --exposure 0 -q --safe avif.gltf -o odd
 ! retex-import: warning: the image `F.avif` cannot be read: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF, WebP or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-import: error: avif.gltf: 1 image is lost, see above; --partial makes the scene without it
 = 2
+# What would shine by it all over is lit in place of that.
+$ retex-import --exposure 0 -q --partial ktx_unlit.gltf -o unlit 2>/dev/null
+$ grep -c emission unlit/unlit.pov
+> 0
+= 1
 $ retex-import --exposure 0 -q ktx_some.gltf -o odd
 ! retex-import: warning: the image `a.ktx2` of the materials `bumps`, `materials[2]`, `oak 0`, `oak 1` and 3 more is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
 ! retex-import: warning: the image `images[3]` of the material `coat` is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model

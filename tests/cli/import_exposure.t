@@ -60,6 +60,15 @@ $ import framed
 > no sky
 > exposure of -
 
+# The sky in a window is not white before a room that it lights: a lamp is lit, which can be turned off.
+$ retex-import room.gltf -o room 2>&1 | grep -o 'a lamp is lit, Added_lamp'
+> a lamp is lit, Added_lamp
+$ render room >/dev/null && look range room.exr
+> within the range
+$ sed -i 's/Added_lamp = *[0-9.]*/Added_lamp = 0/; s/retex_exposure *[-+0-9.]*/retex_exposure 3/' room/room.pov
+$ render room >/dev/null && look range room.exr
+> 76 % within the range
+
 # Without retex-render beside it, the scene is as the model has it.
 $ mkdir alone && cp "$(command -v retex-import)" alone
 $ alone/retex-import dim.gltf -f -o dim 2>&1 | grep look

@@ -440,6 +440,8 @@ for name, extension, image in (('webp', 'EXT_texture_webp', 'red.webp'), ('avif'
                                ('ktx', 'KHR_texture_basisu', 'wood.ktx2')):
     write(name + '.gltf', json.dumps(with_extension(
         extension, True, images=[{'uri': image}], textures=[{'extensions': {extension: {'source': 0}}}])))
+shining = dict(MATERIAL, emissiveTexture={'index': 0}, emissiveFactor=[1, 1, 1], extensions={'KHR_materials_unlit': {}})
+write('ktx_unlit.gltf', json.dumps(dict(json.load(open('ktx.gltf', encoding='ascii')), materials=[shining])))
 scene = with_extension('KHR_texture_basisu', True, images=[{'uri': 'F.png'}, {'uri': 'a.ktx2'}, {'uri': 'b.ktx2'}, {}])
 scene['textures'] = [{'source': 0, 'extensions': {'KHR_texture_basisu': {'source': 1}}},
                      *({'extensions': {'KHR_texture_basisu': {'source': k}}} for k in (1, 2, 3))]

@@ -72,6 +72,18 @@ write('hidden.gltf', json.dumps(scene))
 changed('hidden_circle.gltf', scene, 'nodes', 4, children=[3])
 changed('hidden_all.gltf', dict(scene, scenes=[{'nodes': [3]}]), 'nodes', 3)
 
+# ---- flat ones ----
+
+changed('flat.gltf', gltf(MATERIAL), 'nodes', 0, scale=[1, 1, 0])
+changed('line.gltf', gltf(MATERIAL), 'nodes', 0, scale=[1, 0, 0])
+
+# ---- accessors without a view, which are 0 ----
+
+scene = gltf(MATERIAL)
+scene['accessors'] += [{'componentType': 5121, 'count': 4, 'type': 'VEC4'}, {'componentType': 5126, 'count': 4, 'type': 'VEC4'}]
+scene['meshes'][0]['primitives'][0]['attributes'].update(JOINTS_0=4, WEIGHTS_0=5)
+write('zeros.gltf', json.dumps(scene))
+
 # ---- points and lines ----
 
 changed('points.gltf', gltf(MATERIAL), 'meshes', 0, 'primitives', 0, mode=0)

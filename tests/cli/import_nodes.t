@@ -50,6 +50,14 @@ $ for m in circle all; do retex-import --exposure 0 -q hidden_$m.gltf -o odd; ec
 ! retex-import: error: hidden_circle.gltf: its nodes lie within one another more than 4000 deep, or within themselves
 ! retex-import: error: hidden_all.gltf: there are no surfaces in it
 
+# A scale of 0 makes a thing flat, which is seen; two of them make it a line, which is not.
+$ look flat.gltf && same flat.exr reference.exr
+$ retex-import --exposure 0 -q line.gltf -o line && grep -c '^object' line/line.pov
+> 1
+
+# Accessors without a view are 0.
+$ look zeros.gltf && same zeros.exr reference.exr
+
 # Points and lines are told, also where there is nothing else.
 $ retex-import --exposure 0 -q lines.gltf -o lines
 ! retex-import: warning: points and lines are left out

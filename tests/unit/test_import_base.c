@@ -64,6 +64,7 @@ static void transforms_are_written(void **state)
         {" matrix", {{{0, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, /* a scale of 0 is none there */
         {" matrix", {{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}}}},
         {" matrix", {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}}},
+        {" scale <", {{{.0027, 0, 0, 0}, {0, 2.7e-8, 0, 0}, {0, 0, .0027, 0}}}}, /* small is not 0 */
         {" matrix", {{{1, .5, 0, 7}, {0, 1, 0, 8}, {0, 0, 1, 9}}}},
         {" matrix", {{{.6, 0, .8, 0}, {0, 1, 0, 0}, {-.8, 0, .6, 0}}}},
         {" matrix", {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}}},
@@ -93,9 +94,43 @@ static void transforms_are_written(void **state)
     }
 }
 
+/* What is flat gets an inverse, and stays where it is; lines and points are told. */
+static void flat_ones_get_thick(void **state)
+{
+    (void)state;
+    const struct {
+        Affine a;
+        int is_seen, is_flat;
+    } cases[] = {
+        {{{{2, 0, 0, 1}, {0, 0, 0, 2}, {0, 0, 3, 4}}}, 1, 1},
+        {{{{.0027, 0, 0, 1}, {0, -0., -0., 2}, {0, 0, .0027, 4}}}, 1, 1},
+        {{{{1, 1, 0, 0}, {1, 1, 0, 0}, {0, 0, 5, 0}}}, 1, 1},
+        {{{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 1}}}, 1, 1},
+        {{{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 10, 1}}}, 1, 0},
+        {{{{1000, 0, 0, 0}, {0, .5, 0, 0}, {0, 0, 1000, 0}}}, 1, 0},
+        {{{{0, 0, 0, 5}, {0, 0, 0, 6}, {0, 0, 7, 8}}}, 0, 0},
+        {{{{1, 2, 3, 0}, {2, 4, 6, 0}, {3, 6, 9, 1}}}, 0, 0},
+        {{{{0}}}, 0, 0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Affine a = cases[k].a;
+        double size = 0, det = 0, change = 0;
+        assert_int_equal(affine_thicken(&a), cases[k].is_seen);
+        for (int i = 0; i < 12; i++) {
+            size = fmax(size, fabs(a.m[i / 4][i % 4]) * (i % 4 < 3));
+            change = fmax(change, fabs(a.m[i / 4][i % 4] - cases[k].a.m[i / 4][i % 4]));
+        }
+        for (int i = 0; i < 3; i++)
+            det += a.m[0][i] * (a.m[1][(i + 1) % 3] * a.m[2][(i + 2) % 3] - a.m[1][(i + 2) % 3] * a.m[2][(i + 1) % 3]);
+        assert_true(change <= 1.01e-5 * size);
+        assert_int_equal(change > 0, cases[k].is_flat);
+        assert_true(!cases[k].is_seen || fabs(det) > 1e-7 * size * size * size);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(transforms_are_written)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(transforms_are_written), cmocka_unit_test(flat_ones_get_thick)};
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

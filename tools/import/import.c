@@ -95,11 +95,12 @@ static int find_bounds(Import *import, RetexError *err)
 static void write_object(Import *import, const struct aiNode *node, const Affine *world, void *context)
 {
     FILE *out = context;
-    const Affine placed = affine_mirror_z(world);
+    Affine placed = affine_mirror_z(world);
+    const int is_visible = affine_is_finite(&placed) && affine_thicken(&placed);
     char plain[NAME_SIZE];
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const unsigned index = node->mMeshes[i];
-        if (import->is_dropped[import->walked++] || !affine_is_finite(&placed))
+        if (import->is_dropped[import->walked++] || !is_visible)
             continue;
         if (index >= import->scene->mNumMeshes || !import->meshes[index][0])
             continue;

@@ -23,8 +23,11 @@
 #define LEAST_REFLECTANCE 0.02 /* less is black, or shines itself */
 #define DARK_CARD 0.18 /* of a meter of incident light: the least reflectance of what is seen that it is set to */
 #define BRIGHT_CARD 0.45
-#define DARKEST 0.0039 /* 5 % of the range of sRGB */
-#define BRIGHTEST 0.89 /* 95 % */
+#define DARKEST 0.0039  /* 5 % of the range of sRGB */
+#define BRIGHTEST 0.89  /* 95 % */
+#define MOST_DARKER 1.5 /* stops by which a picture is darker than its surfaces want, for what else is in it */
+#define ENOUGH_LIT 0.93 /* of the picture within the range */
+#define MOST_LAMPS 8     /* times the light of a room is added for windows that are not white */
 enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14, WHY_SIZE = 512 };
 
 /* What is seen in a block of pixels, in the mean of those that show a surface. */
@@ -35,12 +38,13 @@ typedef struct Block {
 
 typedef struct Seen {
     Block blocks[BLOCKS];
-    int count; /* of blocks that show surfaces */
-    double bright; /* nine tenths of them are darker */
-    double stops;  /* that bring them to about their reflectance */
+    int count;          /* of blocks that show surfaces */
+    double bright;      /* nine tenths of them are darker */
+    double stops;       /* that bring them to about their reflectance */
+    double all[BLOCKS]; /* the light of all blocks, with backdrop and what shines */
     double dark, white; /* shares of them: dark after that; white as they are */
-    int empty;       /* pixels without a surface */
-    double backdrop; /* the mean of their light */
+    int empty;          /* pixels without a surface */
+    double backdrop;    /* the mean of their light */
     int is_noisy;
 } Seen;
 
@@ -56,8 +60,8 @@ _Noreturn static void become_renderer(const LookParams *params, const char *prog
 {
     char scene[PATH_MAX], picture[PATH_MAX], size[32], time[32], memory[32], pixels[32];
     /* the pictures are a stranger's: they are decoded without rights */
-    const char *argv[24] = {program, "--safe", "--accept-damaged", "-q", "--size", size, "--spp",
-                            "8", "--aov", "depth,reflectance", "-o", picture};
+    const char *argv[24] = {program, "--safe", "--accept-damaged",  "-q", "--size", size, "--spp",
+                            "8",     "--aov",  "depth,reflectance", "-o", picture};
     int argc = 12;
     const int nothing = open("/dev/null", O_RDWR);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -135,11 +139,12 @@ static double luminance_at(const RetexImage *image, int x, int y)
 }
 
 static Block block_of(Seen *seen, const RetexImage *light, const RetexImage *depth, const RetexImage *reflectance,
-                      int x0, int y0)
+                      int x0, int y0, double *all)
 {
     Block block = {0};
     for (int i = 0; i < SIDE * SIDE; i++) {
         const int x = x0 + i % SIDE, y = y0 + i / SIDE;
+        *all += luminance_at(light, x, y) / (SIDE * SIDE);
         if (!isfinite(depth->pixels[retex_image_index(depth, x, y)])) {
             seen->empty++, seen->backdrop += luminance_at(light, x, y);
             continue;
@@ -151,8 +156,8 @@ static Block block_of(Seen *seen, const RetexImage *light, const RetexImage *dep
         block.light /= block.pixels, block.reflectance /= block.pixels;
     for (int i = 0; i < SIDE * SIDE; i++) {
         const int x = x0 + i % SIDE, y = y0 + i / SIDE;
-        block.faint += isfinite(depth->pixels[retex_image_index(depth, x, y)]) &&
-                       luminance_at(light, x, y) < block.light / 30;
+        block.faint +=
+            isfinite(depth->pixels[retex_image_index(depth, x, y)]) && luminance_at(light, x, y) < block.light / 30;
     }
     return block;
 }
@@ -202,6 +207,43 @@ static void meter(Seen *seen)
     seen->is_noisy = faint > 0.25 * pixels;
 }
 
+/* The share of the picture that is within the range with an exposure. */
+static double lit_at(const Seen *seen, double stops)
+{
+    int count = 0;
+    for (int i = 0; i < BLOCKS; i++) {
+        const double shown = seen->all[i] * exp2(stops);
+        count += shown > DARKEST && shown < BRIGHTEST;
+    }
+    return count / (double)BLOCKS;
+}
+
+/* The exposure of the whole picture: as its surfaces want, or somewhat darker if more is within the range by that. */
+static double whole_stops(const Seen *seen)
+{
+    double best = seen->stops, most = lit_at(seen, best);
+    for (double less = 0.1; less <= MOST_DARKER && most < ENOUGH_LIT; less += 0.1) {
+        const double lit = lit_at(seen, seen->stops - less);
+        if (lit > most + 0.01)
+            best = seen->stops - less, most = lit;
+    }
+    return best;
+}
+
+/* What is brighter than nearly all of the picture, as the sky in windows. */
+static int compare_numbers(const void *a, const void *b)
+{
+    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
+
+static double brightest_of(const Seen *seen)
+{
+    double all[BLOCKS];
+    memcpy(all, seen->all, sizeof all);
+    qsort(all, BLOCKS, sizeof *all, compare_numbers);
+    return all[(int)(ENOUGH_LIT * BLOCKS)];
+}
+
 static const RetexImage *image_of(const RetexSet *set, const char *name)
 {
     const RetexPart *part = retex_set_part(set, name ? retex_set_find_part(set, name) : 0);
@@ -222,7 +264,8 @@ static int see(const LookParams *params, Seen *seen, RetexError *err)
     const RetexImage *reflectance = code ? NULL : image_of(set, "reflectance");
     for (int i = 0; light && depth && reflectance && i < BLOCKS; i++) {
         const int across = WIDTH / SIDE;
-        const Block block = block_of(seen, light, depth, reflectance, i % across * SIDE, i / across * SIDE);
+        const Block block =
+            block_of(seen, light, depth, reflectance, i % across * SIDE, i / across * SIDE, &seen->all[i]);
         if (2 * block.pixels >= SIDE * SIDE)
             seen->blocks[seen->count++] = block;
     }
@@ -285,13 +328,18 @@ static int is_enough(const Seen *seen, const LookParams *params)
            !(params->is_framed && is_bare(seen));
 }
 
-/* As bright as what there is, or much brighter than its noise; the light that is added makes about a fifth. */
-static double added_to(const Seen *seen)
+static double mean_of(const Seen *seen)
 {
     double mean = 0;
     for (int i = 0; i < seen->count; i++)
         mean += seen->blocks[i].light / seen->count;
-    return fmax(1, fmin((seen->is_noisy ? 4 : 1) * mean / 0.2, 1e5));
+    return mean;
+}
+
+/* As bright as what there is, or much brighter than its noise; the light that is added makes about a fifth. */
+static double added_to(const Seen *seen)
+{
+    return fmax(1, fmin((seen->is_noisy ? 4 : 1) * mean_of(seen) / 0.2, 1e5));
 }
 
 /* The sky first, which lights more than one room; where it is not enough or not there, a lamp. */
@@ -312,6 +360,30 @@ static int add_light(Look *look, const LookParams *params, Seen *seen, RetexErro
     return code;
 }
 
+/* Windows that are white before a room that is bright enough: the added sky is all its light. As a photographer does,
+ * the lamp is lit, by as much as the windows are too bright. A second look corrects what the lamp was taken to give, if
+ * that was much less or more. */
+static int balance_windows(Look *look, const LookParams *params, Seen *seen, RetexError *err)
+{
+    static const char sky[] = LOOK_DECLARE(LOOK_ADDED_SKY), lamp[] = LOOK_DECLARE(LOOK_ADDED_LAMP);
+    const double times = fmin(exp2(seen->stops) * brightest_of(seen) / BRIGHTEST, MOST_LAMPS), mean = mean_of(seen),
+                 was = number_after(params, lamp, "", NAN);
+    double more = (times - 1) * mean / 0.2, off = 0;
+    int code = RETEX_OK;
+    if (!is_enough(seen, params) || lit_at(seen, seen->stops) > ENOUGH_LIT || times < 1.2 || isnan(was) ||
+        !(number_after(params, sky, "", NAN) > 0))
+        return RETEX_OK;
+    for (int i = 0; i < 2 && !code && (off < 0.7 || off > 1.3); i++) {
+        more *= i ? off : 1;
+        code = put_number(params, lamp, LOOK_ADDED_FORMAT, was + more, err);
+        if (!code)
+            code = see(params, seen, err);
+        off = fmin(fmax((times - 1) * mean / fmax(mean_of(seen) - mean, 1e-9), 0.2), 5);
+    }
+    look->added = LOOK_ADDED_LAMP, look->is_balanced = 1;
+    return code;
+}
+
 int look_at(Look *look, const LookParams *params, RetexError *err)
 {
     Seen seen;
@@ -324,9 +396,13 @@ int look_at(Look *look, const LookParams *params, RetexError *err)
     look->is_bare = is_bare(&seen) && params->is_framed;
     if (look->is_seen)
         code = add_light(look, params, &seen, err);
+    if (!code && look->is_seen)
+        code = balance_windows(look, params, &seen, err);
     look->is_black = !(seen.bright > 0) || seen.stops >= MOST_STOPS;
-    if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.dark < 0.1 && seen.white < 0.1))
+    const int has_sky = number_after(params, LOOK_DECLARE(LOOK_ADDED_SKY), "", NAN) > 0;
+    const int is_white = has_sky ? lit_at(&seen, 0) < 0.9 : seen.white >= 0.1; /* its own windows may be */
+    if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.dark < 0.1 && !is_white))
         return code;
-    look->exposure = fmax(seen.stops, -RETEX_EXPOSURE_MAX);
+    look->exposure = fmax(whole_stops(&seen), -RETEX_EXPOSURE_MAX);
     return look_expose(params, look->exposure, err);
 }

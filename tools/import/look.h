@@ -24,6 +24,7 @@ typedef struct Look {
     const char *added; /* what is declared for the light that was added last, or NULL */
     double lit;      /* share of what is seen, after exposure, that is brighter than 5 % of the range, by own light */
     int is_seen;     /* any surface is */
+    int is_balanced; /* the lamp was added for windows that were white */
     int is_bare;     /* things are seen before black */
     int is_black;    /* so little light that no exposure helps */
     int is_noisy;    /* most light is of few paths: the lamps shine through gaps */

@@ -3,6 +3,8 @@
 
 #include "import/base/affine.h"
 
+#define THIN 1e-5 /* of its size: the thickness of what is flat */
+
 const Affine affine_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 Affine affine_from(const struct aiMatrix4x4 *m)
@@ -50,10 +52,48 @@ Affine affine_mirror_z(const Affine *a)
     return b;
 }
 
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The longest product of two of three vectors, as a unit vector: normal to all if they lie in a plane. Returns its
+ * length. */
+static double normal_of(const double v[3][3], double normal[3])
+{
+    double longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = v[i], *b = v[(i + 1) % 3];
+        const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        const double length = sqrt(dot(n, n));
+        for (int k = 0; k < 3 && length > longest; k++)
+            normal[k] = n[k] / length;
+        longest = fmax(longest, length);
+    }
+    return longest;
+}
+
+int affine_thicken(Affine *a)
+{
+    double rows[3][3], columns[3][3], from[3] = {0}, to[3] = {0}, size = 0;
+    for (int i = 0; i < 9; i++)
+        size = fmax(size, fabs(rows[i / 3][i % 3] = columns[i % 3][i / 3] = a->m[i / 3][i % 3]));
+    const double plane = normal_of((const double(*)[3])rows, from);
+    if (!(normal_of((const double(*)[3])columns, to) > 1e-7 * size * size) || !(plane > 0))
+        return 0;
+    double through[3];
+    affine_vector(a, from, through);
+    if (sqrt(dot(through, through)) > THIN * size)
+        return 1;
+    for (int i = 0; i < 9; i++)
+        a->m[i / 3][i % 3] += THIN * size * to[i / 3] * from[i % 3];
+    return 1;
+}
+
 /* Numbers that single precision made of 0 and 1 are written as these. */
 static double tidy(double x, double size)
 {
-    return fabs(x) < 1e-7 * size ? 0 : fabs(x - round(x)) < 1e-7 ? round(x) : x;
+    return fabs(x) < 1e-7 * size ? 0 : round(x) != 0 && fabs(x - round(x)) < 1e-7 ? round(x) : x;
 }
 
 void affine_print(FILE *out, const Affine *a)

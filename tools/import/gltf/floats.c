@@ -11,6 +11,8 @@
 
 enum { BYTE = 5120, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, UNSIGNED_INT = 5125, FLOAT };
 
+enum { MOST_ZEROS = 1 << 26 }; /* bytes of an accessor without a view */
+
 typedef enum Change { KEPT, CONVERTED, REFUSED } Change;
 
 /* Elements within a buffer. */
@@ -212,8 +214,36 @@ static void convert_attributes(GltfFloats *f, json_t *attributes, int of_mesh)
     }
 }
 
+/* An accessor without a view is 0, which Assimp refuses: it gets a view of zeros. */
+static void fill_empty(GltfFloats *f, json_t *accessor)
+{
+    static const struct {
+        const char *type;
+        size_t width;
+    } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+    const char *type = json_string_value(json_object_get(accessor, "type"));
+    size_t count, component, begin, width = 0;
+    if (!type || json_object_get(accessor, "bufferView") || json_object_get(accessor, "sparse") ||
+        !gltf_get_size(accessor, "count", 0, &count) || !gltf_get_size(accessor, "componentType", 0, &component))
+        return;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        width = strcmp(type, types[i].type) == 0 ? types[i].width : width;
+    if (!width || !count || count > MOST_ZEROS / (width * sizeof(float)))
+        return;
+    const size_t bytes = count * width * size_of(component);
+    unsigned char *to = gltf_extend(&f->floats, bytes, &begin);
+    if (!to)
+        return;
+    memset(to, 0, bytes);
+    const json_int_t view = gltf_add_view(f->json, json_array_size(json_object_get(f->json, "buffers")), begin, bytes);
+    f->any |= json_object_set_new(accessor, "bufferView", json_integer(view)) == 0;
+}
+
 void gltf_floats_convert(GltfFloats *f)
 {
+    const json_t *accessors = json_object_get(f->json, "accessors");
+    for (size_t i = 0; i < json_array_size(accessors); i++)
+        fill_empty(f, json_array_get(accessors, i));
     const json_t *meshes = json_object_get(f->json, "meshes");
     for (size_t i = 0; i < json_array_size(meshes); i++) {
         const json_t *primitives = json_object_get(json_array_get(meshes, i), "primitives");

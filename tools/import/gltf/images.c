@@ -74,3 +74,24 @@ void gltf_note_images(Import *import, const json_t *json)
                         image_name(json, json_integer_value(image), plain), count == 1 ? "" : "s", list);
     }
 }
+
+static int is_lost(const json_t *json, const json_t *use)
+{
+    const json_t *index = json_object_get(use, "index"), *textures = json_object_get(json, "textures");
+    const json_t *texture = json_is_integer(index) ? json_array_get(textures, (size_t)json_integer_value(index)) : NULL;
+    return texture && gltf_extension(texture, "KHR_texture_basisu") && !has_other(texture);
+}
+
+int gltf_put_out_lost(json_t *json)
+{
+    const json_t *materials = json_object_get(json, "materials");
+    int any = 0;
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        json_t *m = json_array_get(materials, i);
+        if (is_lost(json, json_object_get(json_object_get(m, "pbrMetallicRoughness"), "baseColorTexture")))
+            any |= json_object_del(json_object_get(m, "extensions"), "KHR_materials_unlit") == 0;
+        if (is_lost(json, json_object_get(m, "emissiveTexture")))
+            any |= json_object_del(m, "emissiveFactor") == 0;
+    }
+    return any;
+}

@@ -26,6 +26,9 @@ int gltf_take_cameras(Import *import, const json_t *json);
 
 /* Tell of images that are lost. */
 void gltf_note_images(Import *import, const json_t *json);
+/* Materials that shine by an image in no format that is read, which would be all of one light, are lit instead. Returns
+ * 1 if there were any. */
+int gltf_put_out_lost(json_t *json);
 
 /* Why the file cannot be read, which may not refer to more than it has; or nothing. */
 void gltf_check_indices(const json_t *json, char why[GLTF_REFUSED_SIZE]);

@@ -268,6 +268,7 @@ static int change(GltfFloats *f)
         any |= mark_materials(f->json);
         any |= drop_hidden(f->json);
         any |= take_images(f->json);
+        any |= gltf_put_out_lost(f->json);
         any |= take_weights(f->json);
         any |= order_attributes(f->json);
         any |= drop_cameras_and_lights(f->json);

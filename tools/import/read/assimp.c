@@ -51,6 +51,12 @@ static void flush_file(struct aiFile *file)
     (void)file;
 }
 
+static int has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
 static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode)
 {
     Import *import = (Import *)io->UserData;
@@ -76,6 +82,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     }
     if (is_model && import->is_gltf)
         stream = gltf_prepare(import, stream);
+    else if (has_ending(name, ".mtl"))
+        stream = mtl_prepare(stream);
     if (!stream) {
         free(file);
         return NULL;
@@ -100,12 +108,6 @@ static struct aiFileIO *new_io(Import *import)
 }
 
 /* ---- the model ---- */
-
-static int has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
 
 int assimp_is_gltf(const char *path)
 {

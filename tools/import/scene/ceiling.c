@@ -49,14 +49,14 @@ typedef struct Rectangle {
     double walls;          /* the area of all that is around, as far as it is free */
 } Rectangle;
 
-/* How far it is free from a place to both sides along x, z and between; the least of it. */
-static double free_around(const Space *space, const double at[3], double distances[8])
+/* How far it is free from a place to both sides along x, z and between, where it is open, `open`; the least of it. */
+static double free_around(const Space *space, const double at[3], double open, double distances[8])
 {
     double least = INFINITY;
     for (int i = 0; i < 8; i++) {
         const double a = i * PI / 4, direction[3] = {cos(a), 0, sin(a)};
         SpaceHit hit;
-        distances[i] = space_ray(space, at, direction, 0, INFINITY, &hit) ? hit.t : 0;
+        distances[i] = space_ray(space, at, direction, 0, open, &hit) ? hit.t : open;
         least = fmin(least, distances[i]);
     }
     return least;
@@ -68,7 +68,7 @@ static double try_place(const Space *space, const double at[3], double height, d
     const double up[3] = {0, 1, 0};
     double around[8];
     SpaceHit hit;
-    const double least = free_around(space, at, around);
+    const double least = free_around(space, at, 2 * height, around);
     if (least <= best || !space_ray(space, at, up, 0, INFINITY, &hit))
         return 0;
     to->half[0] = 0.4 * fmin(around[0], around[4]), to->half[1] = 0.4 * fmin(around[2], around[6]);
@@ -145,7 +145,8 @@ int ceiling_write(Import *import, FILE *out, double strength, int *is_written, R
     if (!names_make(&import->names, "Ceiling_light", "Ceiling_light", name))
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
     fprintf(out,
-            LOOK_DECLARE(LOOK_ADDED_LAMP) LOOK_ADDED_FORMAT "; // below the ceiling\n#if (" LOOK_ADDED_LAMP " > 0)\n"
+            LOOK_DECLARE(LOOK_ADDED_LAMP) LOOK_ADDED_FORMAT
+            "; // below the ceiling\n#if (" LOOK_ADDED_LAMP " > 0)\n"
             "// It can be changed after rendering: retex-render --lamp %s\n"
             "#declare %s = texture { pigment { rgb 1 } finish { diffuse 0 emission rgb %.4g*" LOOK_ADDED_LAMP " } }\n",
             strength, name, name, radiance_of(&r));

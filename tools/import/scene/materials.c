@@ -389,7 +389,7 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     int code = surface_read(import, index, s, err);
     if (code)
         return code;
-    const int has_diffuse = place_emission(s, emission);
+    int has_diffuse = place_emission(s, emission);
     if (s->base_map.source[0]) {
         const ImageUse use = {.source = s->base_map.source,
                               .opacity = s->opacity_map.source[0] ? s->opacity_map.source : NULL,
@@ -402,6 +402,10 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
             return code;
     }
     to->has_image = file[0] != '\0';
+    if (!has_diffuse && s->base_map.source[0] && !to->has_image) { /* all of one light, nothing of it would be seen */
+        s->unlit = 0, has_diffuse = 1;
+        emission[0] = emission[1] = emission[2] = 0;
+    }
     for (int k = 0; k < 3; k++) /* glTF multiplies them; other formats have them in place of the material's colour */
         to->vertex_factor[k] = import->is_gltf ? s->base[k] : 1;
     choose_uv_sets(to, s);
