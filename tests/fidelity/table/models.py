@@ -28,7 +28,7 @@ WALNUT = os.path.join(HERE, "../../../scenes/textures/walnut-herringbone.jpg")
 WIDTH = 320
 COLUMNS, ROWS = 16, 12  # regions
 DIFFERS = 0.05          # of a region's mean, of 1
-FREE = re.compile(r"CC0|CC-BY-[0-9]|CC-BY$|MIT|BSD|public domain", re.I)  # licences that allow showing a picture
+FREE = re.compile(r"CC0|CC-BY-[0-9]|CC-BY$|MIT|BSD|Apache|GPL|public domain", re.I)  # licences that allow showing a picture
 A_SHEET = 8             # models on one picture of the page
 
 
