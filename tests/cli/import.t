@@ -284,6 +284,9 @@ $ retex-import --exposure 0 below/out.gltf -o out
 $ ls -d out*
 ! ls: cannot access 'out*': No such file or directory
 = 2
+$ retex-import --exposure 0 -q --partial below/out.gltf -o out
+! retex-import: warning: there is no image `../secret.png`
+$ rm -r out
 $ retex-import --exposure 0 below/out.gltf -I . -o out && ls out/textures
 > Secret.png
 ! retex-import: other views: View_2 from outside, View_3 from outside, View_4 from outside; --camera of retex-render takes one

@@ -108,7 +108,7 @@ int files_find(Import *import, const char *name, char path[PATH_MAX], int *found
                 try_file(import, import->roots[i], below[k], other, path) == RETEX_ACCESS_ALLOWED)
                 return RETEX_OK;
     *found = 0;
-    if (outside)
+    if (outside && !import->options->partial)
         return retex_fail(err, RETEX_EACCESS,
                           "%s: the model names the file `%s`, which is outside of its folder; "
                           "-I DIR adds folders that may be read",

@@ -105,7 +105,7 @@ struct Import {
     RetexAccess access; /* of files that the model names */
     const char *roots[64];
     char root[PATH_MAX];   /* folder of the model, resolved */
-    char denied[PATH_MAX]; /* the first file outside that the model asked for */
+    char denied[PATH_MAX]; /* the first file outside that the model asked for, of those that are no pictures */
     int is_gltf, is_fbx, is_3ds;
     int axes_are_unknown; /* the format does not say which one is up */
     int has_metres;       /* lengths are metres, by the format or as Assimp makes them */

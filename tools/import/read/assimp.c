@@ -11,6 +11,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 
+#include "common/picture_kind.h"
 #include "import/base/world.h"
 #include "import/gltf/gltf.h"
 #include "import/read/read.h"
@@ -69,7 +70,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     if (mode[0] != 'r')
         return NULL;
     if (retex_access_open(is_model ? &of_user : &import->access, name, &descriptor, &err)) {
-        if (err.code == RETEX_EACCESS && !import->denied[0])
+        if (err.code == RETEX_EACCESS && (!import->denied[0] || picture_kind_of_name(import->denied)))
             snprintf(import->denied, sizeof import->denied, "%s", name);
         return NULL;
     }
@@ -166,7 +167,7 @@ int assimp_read(Import *import, RetexError *err)
     import->scene = read_by_assimp(import, flags | aiProcess_ValidateDataStructure);
     if (!import->scene && names_are_refused())
         import->scene = read_by_assimp(import, flags);
-    if (import->denied[0])
+    if (import->denied[0] && (!import->scene || !picture_kind_of_name(import->denied))) /* images are found later */
         return retex_fail(err, RETEX_EACCESS,
                           "%s: the model names the file `%s`, which is outside of its folder; "
                           "-I DIR adds folders that may be read",
