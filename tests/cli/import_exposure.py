@@ -53,18 +53,21 @@ def write(name, size=None, strength=0, intensity=None, camera=(-.13, 0, 0, .9915
         json.dump(model, out)
 
 
-def write_room(name):
-    """A room of 6 x 6 m, 3 m high, whose far wall has an opening of half of it, before the eye."""
+def write_room(name, eye=2.5, is_open=False):
+    """A room of 6 x 6 m, 3 m high, whose far wall has an opening of half of it, before the eye; or without the wall that
+    is before that."""
     x, z, y, w, low, high = 3, 3, 3, 2.2, .6, 2.6
     quads = [[(-x, 0, z), (x, 0, z), (x, 0, -z), (-x, 0, -z)], [(-x, y, -z), (x, y, -z), (x, y, z), (-x, y, z)],
              [(-x, 0, z), (-x, 0, -z), (-x, y, -z), (-x, y, z)], [(x, 0, -z), (x, 0, z), (x, y, z), (x, y, -z)],
              [(x, 0, z), (-x, 0, z), (-x, y, z), (x, y, z)]]
+    if is_open:
+        quads[-1], low, high = [(-x, 0, -z), (x, 0, -z), (x, y, -z), (-x, y, -z)], 0, 0
     for a, b, c, d in ((-x, x, 0, low), (-x, x, high, y), (-x, -w, low, high), (w, x, low, high)):
         quads.append([(a, c, -z), (b, c, -z), (b, d, -z), (a, d, -z)])
     corners = b''.join(struct.pack('<3f', *c) for quad in quads for c in quad)
     indices = b''.join(struct.pack('<6H', *(4 * k + i for i in (0, 1, 2, 0, 2, 3))) for k in range(len(quads)))
     model = {'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0, 1]}],
-             'nodes': [{'mesh': 0}, {'translation': [0, 1.5, 2.5], 'camera': 0}],
+             'nodes': [{'mesh': 0}, {'translation': [0, 1.5, eye], 'camera': 0}],
              'cameras': [{'type': 'perspective', 'perspective': {'yfov': 1, 'znear': .1}}],
              'buffers': [{'byteLength': len(corners) + len(indices), 'uri': name + '.bin'}],
              'bufferViews': [{'buffer': 0, 'byteOffset': 0, 'byteLength': len(corners)},
@@ -96,7 +99,7 @@ def judge_range(path):
     """Whether nine tenths are within 5 and 95 % of the range of sRGB, and the middle is neither dark nor white."""
     picture = luminance(path)
     lit = np.mean((picture > .0039) & (picture < .89))
-    return 'within the range' if lit > .9 and .05 < np.median(picture) < .5 else f'{100 * lit:.0f} % within the range'
+    return 'within the range' if lit > .9 and .05 < np.median(picture) < .5 else f'{round(10 * lit)} tenths within the range'
 
 
 if len(sys.argv) > 2:
@@ -105,6 +108,7 @@ elif len(sys.argv) > 1:
     print(judge(sys.argv[1]))
 else:
     write_room('room')
+    write_room('stage', 10, True)
     write('speck', .02, 3)
     write('panel', 2, 20)
     write('out', intensity=0)

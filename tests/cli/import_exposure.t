@@ -67,7 +67,12 @@ $ render room >/dev/null && look range room.exr
 > within the range
 $ sed -i 's/Added_lamp = *[0-9.]*/Added_lamp = 0/; s/retex_exposure *[-+0-9.]*/retex_exposure 3/' room/room.pov
 $ render room >/dev/null && look range room.exr
-> 76 % within the range
+> 8 tenths within the range
+
+# Before a bright sky of the user's, the exposure gives way to it somewhat.
+$ retex-import -q --sky "$SCENES/textures/damask.jpg" stage.gltf -o stage
+$ render stage >/dev/null && look range stage.exr
+> 7 tenths within the range
 
 # Without retex-render beside it, the scene is as the model has it.
 $ mkdir alone && cp "$(command -v retex-import)" alone

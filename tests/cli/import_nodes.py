@@ -80,8 +80,11 @@ changed('line.gltf', gltf(MATERIAL), 'nodes', 0, scale=[1, 0, 0])
 # ---- accessors without a view, which are 0 ----
 
 scene = gltf(MATERIAL)
-scene['accessors'] += [{'componentType': 5121, 'count': 4, 'type': 'VEC4'}, {'componentType': 5126, 'count': 4, 'type': 'VEC4'}]
+scene['accessors'] += [{'componentType': 5121, 'count': 4, 'type': 'VEC4'},
+                       {'componentType': 5126, 'count': 4, 'type': 'VEC4'}, {'componentType': 5126, 'count': 1, 'type': 'MAT4'}]
 scene['meshes'][0]['primitives'][0]['attributes'].update(JOINTS_0=4, WEIGHTS_0=5)
+scene['skins'] = [{'joints': [1], 'inverseBindMatrices': 6}]
+scene['nodes'][0]['skin'] = 0
 write('zeros.gltf', json.dumps(scene))
 
 # ---- points and lines ----
