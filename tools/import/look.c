@@ -1,4 +1,4 @@
-/* See look.h. Light is judged by means of 4 x 4 pixels, so that the noise of few samples is no darkness. */
+/* See look.h. */
 #include "import/look.h"
 
 #include <errno.h>
@@ -13,40 +13,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <retex/color.h>
 #include <retex/retex.h>
 
 #include "common/beside.h"
 #include "import/base/look_text.h"
+#include "import/meter.h"
 
 #define PICTURE ".look.exr"
-#define LEAST_REFLECTANCE 0.02 /* less is black, or shines itself */
-#define DARK_CARD 0.18 /* of a meter of incident light: the least reflectance of what is seen that it is set to */
-#define BRIGHT_CARD 0.45
-#define DARKEST 0.0039  /* 5 % of the range of sRGB */
-#define BRIGHTEST 0.89  /* 95 % */
-#define MOST_DARKER 1.5 /* stops by which a picture is darker than its surfaces want, for what else is in it */
-#define ENOUGH_LIT 0.93 /* of the picture within the range */
-#define MOST_LAMPS 8     /* times the light of a room is added for windows that are not white */
-enum { WIDTH = 96, HEIGHT = 72, SIDE = 4, BLOCKS = WIDTH / SIDE * (HEIGHT / SIDE), MOST_STOPS = 14, WHY_SIZE = 512 };
-
-/* What is seen in a block of pixels, in the mean of those that show a surface. */
-typedef struct Block {
-    double light, reflectance;
-    int pixels, faint; /* those that show one; those that have next to nothing of its light */
-} Block;
-
-typedef struct Seen {
-    Block blocks[BLOCKS];
-    int count;          /* of blocks that show surfaces */
-    double bright;      /* nine tenths of them are darker */
-    double stops;       /* that bring them to about their reflectance */
-    double all[BLOCKS]; /* the light of all blocks, with backdrop and what shines */
-    double dark, white; /* shares of them: dark after that; white as they are */
-    int empty;          /* pixels without a surface */
-    double backdrop;    /* the mean of their light */
-    int is_noisy;
-} Seen;
+#define MOST_LAMPS 8 /* times the light of a room is added for windows that are not white */
+enum { MOST_STOPS = 14, WHY_SIZE = 512 };
 
 /* ---- the picture ---- */
 
@@ -68,7 +43,7 @@ _Noreturn static void become_renderer(const LookParams *params, const char *prog
     dup2(nothing, STDIN_FILENO), dup2(nothing, STDOUT_FILENO), dup2(errors, STDERR_FILENO);
     fcntl(params->folder, F_SETFD, 0); /* it stays open */
     path_of(params, params->name, ".pov", scene), path_of(params, PICTURE, "", picture);
-    snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
+    snprintf(size, sizeof size, "%dx%d", METER_WIDTH, METER_HEIGHT);
     snprintf(time, sizeof time, "%.3f", params->seconds);
     if (params->seconds > 0)
         argv[argc++] = "--max-time", argv[argc++] = time;
@@ -130,148 +105,18 @@ static int render(const LookParams *params, RetexError *err)
                                        : retex_fail(err, RETEX_EFORMAT, "its scene cannot be rendered%s", why);
 }
 
-/* ---- what is seen ---- */
-
-static double luminance_at(const RetexImage *image, int x, int y)
-{
-    const float *p = image->pixels + retex_image_index(image, x, y);
-    return fmax(retex_luminance((double)p[0], (double)p[1], (double)p[2]), 0);
-}
-
-static Block block_of(Seen *seen, const RetexImage *light, const RetexImage *depth, const RetexImage *reflectance,
-                      int x0, int y0, double *all)
-{
-    Block block = {0};
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const int x = x0 + i % SIDE, y = y0 + i / SIDE;
-        *all += luminance_at(light, x, y) / (SIDE * SIDE);
-        if (!isfinite(depth->pixels[retex_image_index(depth, x, y)])) {
-            seen->empty++, seen->backdrop += luminance_at(light, x, y);
-            continue;
-        }
-        block.light += luminance_at(light, x, y), block.reflectance += luminance_at(reflectance, x, y);
-        block.pixels++;
-    }
-    if (block.pixels)
-        block.light /= block.pixels, block.reflectance /= block.pixels;
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const int x = x0 + i % SIDE, y = y0 + i / SIDE;
-        block.faint +=
-            isfinite(depth->pixels[retex_image_index(depth, x, y)]) && luminance_at(light, x, y) < block.light / 30;
-    }
-    return block;
-}
-
-static int compare_light(const void *a, const void *b)
-{
-    const double x = ((const Block *)a)->light, y = ((const Block *)b)->light;
-    return (x > y) - (x < y);
-}
-
-/* What shines itself, such as panes with a picture of the sky, need not be in the range: only what reflects light is
- * judged, if it is a third of what is seen. With baked light, nothing reflects. */
-static void leave_out_what_shines(Seen *seen)
-{
-    int count = 0, kept = 0;
-    for (int i = 0; i < seen->count; i++)
-        count += seen->blocks[i].reflectance > LEAST_REFLECTANCE;
-    for (int i = 0; i < seen->count && 3 * count >= seen->count; i++)
-        if (seen->blocks[i].reflectance > LEAST_REFLECTANCE)
-            seen->blocks[kept++] = seen->blocks[i];
-    seen->count = kept ? kept : seen->count;
-}
-
-static void meter(Seen *seen)
-{
-    double sum = 0, reflectance = 0, faint = 0, pixels = 0;
-    leave_out_what_shines(seen);
-    qsort(seen->blocks, (size_t)seen->count, sizeof *seen->blocks, compare_light);
-    seen->bright = seen->count ? seen->blocks[9 * seen->count / 10].light : 0;
-    seen->dark = !(seen->bright > 0);
-    if (seen->dark > 0)
-        return;
-    for (int i = 0; i < seen->count; i++) {
-        sum += log2(fmax(seen->blocks[i].light, seen->bright / 256));
-        reflectance += seen->blocks[i].reflectance / seen->count;
-    }
-    const double card = fmin(fmax(reflectance, DARK_CARD), BRIGHT_CARD);
-    seen->stops = log2(card) - sum / seen->count;
-    seen->stops += fmax(fmin(log2(BRIGHTEST / seen->bright) - seen->stops, 0), -1); /* windows may be white */
-    for (int i = 0; i < seen->count; i++) {
-        const Block *b = &seen->blocks[i];
-        const int is_dark = b->light * exp2(seen->stops) < DARKEST;
-        seen->dark += (is_dark && b->reflectance > LEAST_REFLECTANCE) / (double)seen->count; /* black things may be */
-        seen->white += (b->light > BRIGHTEST) / (double)seen->count;
-        faint += is_dark ? 0 : b->faint, pixels += is_dark ? 0 : b->pixels;
-    }
-    seen->is_noisy = faint > 0.25 * pixels;
-}
-
-/* The share of the picture that is within the range with an exposure. */
-static double lit_at(const Seen *seen, double stops)
-{
-    int count = 0;
-    for (int i = 0; i < BLOCKS; i++) {
-        const double shown = seen->all[i] * exp2(stops);
-        count += shown > DARKEST && shown < BRIGHTEST;
-    }
-    return count / (double)BLOCKS;
-}
-
-/* The exposure of the whole picture: as its surfaces want, or somewhat darker if more is within the range by that. */
-static double whole_stops(const Seen *seen)
-{
-    double best = seen->stops, most = lit_at(seen, best);
-    for (double less = 0.1; less <= MOST_DARKER && most < ENOUGH_LIT; less += 0.1) {
-        const double lit = lit_at(seen, seen->stops - less);
-        if (lit > most + 0.01)
-            best = seen->stops - less, most = lit;
-    }
-    return best;
-}
-
-/* What is brighter than nearly all of the picture, as the sky in windows. */
-static int compare_numbers(const void *a, const void *b)
-{
-    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
-}
-
-static double brightest_of(const Seen *seen)
-{
-    double all[BLOCKS];
-    memcpy(all, seen->all, sizeof all);
-    qsort(all, BLOCKS, sizeof *all, compare_numbers);
-    return all[(int)(ENOUGH_LIT * BLOCKS)];
-}
-
-static const RetexImage *image_of(const RetexSet *set, const char *name)
-{
-    const RetexPart *part = retex_set_part(set, name ? retex_set_find_part(set, name) : 0);
-    return part ? &part->image : NULL;
-}
-
-static int see(const LookParams *params, Seen *seen, RetexError *err)
+static int see(const LookParams *params, Meter *seen, RetexError *err)
 {
     char path[PATH_MAX];
     RetexSet *set = NULL;
-    memset(seen, 0, sizeof *seen);
     int code = render(params, err);
     path_of(params, PICTURE, "", path);
     if (!code)
         code = retex_set_read(path, &set, NULL, 1, err);
     unlinkat(params->folder, PICTURE, 0);
-    const RetexImage *light = code ? NULL : image_of(set, NULL), *depth = code ? NULL : image_of(set, "depth");
-    const RetexImage *reflectance = code ? NULL : image_of(set, "reflectance");
-    for (int i = 0; light && depth && reflectance && i < BLOCKS; i++) {
-        const int across = WIDTH / SIDE;
-        const Block block =
-            block_of(seen, light, depth, reflectance, i % across * SIDE, i / across * SIDE, &seen->all[i]);
-        if (2 * block.pixels >= SIDE * SIDE)
-            seen->blocks[seen->count++] = block;
-    }
+    if (!code)
+        meter_read(seen, set);
     retex_set_close(&set);
-    seen->backdrop /= seen->empty ? seen->empty : 1;
-    meter(seen);
     return code;
 }
 
@@ -316,34 +161,21 @@ int look_expose(const LookParams *params, double stops, RetexError *err)
     return put_number(params, LOOK_EXPOSURE, LOOK_EXPOSURE_FORMAT, stops, err);
 }
 
-static int is_bare(const Seen *seen)
-{
-    return seen->empty > WIDTH * HEIGHT / 5 && seen->backdrop < seen->bright / 32;
-}
-
 /* Light is enough if most of what is seen can be exposed. */
-static int is_enough(const Seen *seen, const LookParams *params)
+static int is_enough(const Meter *seen, const LookParams *params)
 {
     return seen->bright > 0 && seen->dark < 0.35 && seen->stops < MOST_STOPS && !seen->is_noisy &&
-           !(params->is_framed && is_bare(seen));
-}
-
-static double mean_of(const Seen *seen)
-{
-    double mean = 0;
-    for (int i = 0; i < seen->count; i++)
-        mean += seen->blocks[i].light / seen->count;
-    return mean;
+           !(params->is_framed && meter_is_bare(seen));
 }
 
 /* As bright as what there is, or much brighter than its noise; the light that is added makes about a fifth. */
-static double added_to(const Seen *seen)
+static double added_to(const Meter *seen)
 {
-    return fmax(1, fmin((seen->is_noisy ? 4 : 1) * mean_of(seen) / 0.2, 1e5));
+    return fmax(1, fmin((seen->is_noisy ? 4 : 1) * meter_mean(seen) / 0.2, 1e5));
 }
 
 /* The sky first, which lights more than one room; where it is not enough or not there, a lamp. */
-static int add_light(Look *look, const LookParams *params, Seen *seen, RetexError *err)
+static int add_light(Look *look, const LookParams *params, Meter *seen, RetexError *err)
 {
     static const struct {
         const char *name, *declared;
@@ -363,14 +195,14 @@ static int add_light(Look *look, const LookParams *params, Seen *seen, RetexErro
 /* Windows that are white before a room that is bright enough: the added sky is all its light. As a photographer does,
  * the lamp is lit, by as much as the windows are too bright. A second look corrects what the lamp was taken to give, if
  * that was much less or more. */
-static int balance_windows(Look *look, const LookParams *params, Seen *seen, RetexError *err)
+static int balance_windows(Look *look, const LookParams *params, Meter *seen, RetexError *err)
 {
     static const char sky[] = LOOK_DECLARE(LOOK_ADDED_SKY), lamp[] = LOOK_DECLARE(LOOK_ADDED_LAMP);
-    const double times = fmin(exp2(seen->stops) * brightest_of(seen) / BRIGHTEST, MOST_LAMPS), mean = mean_of(seen),
-                 was = number_after(params, lamp, "", NAN);
+    const double times = fmin(exp2(seen->stops) * meter_brightest(seen) / METER_BRIGHTEST, MOST_LAMPS),
+                 mean = meter_mean(seen), was = number_after(params, lamp, "", NAN);
     double more = (times - 1) * mean / 0.2, off = 0;
     int code = RETEX_OK;
-    if (!is_enough(seen, params) || lit_at(seen, seen->stops) > ENOUGH_LIT || times < 1.2 || isnan(was) ||
+    if (!is_enough(seen, params) || meter_lit(seen, seen->stops) > METER_ENOUGH_LIT || times < 1.2 || isnan(was) ||
         !(number_after(params, sky, "", NAN) > 0))
         return RETEX_OK;
     for (int i = 0; i < 2 && !code && (off < 0.7 || off > 1.3); i++) {
@@ -378,7 +210,7 @@ static int balance_windows(Look *look, const LookParams *params, Seen *seen, Ret
         code = put_number(params, lamp, LOOK_ADDED_FORMAT, was + more, err);
         if (!code)
             code = see(params, seen, err);
-        off = fmin(fmax((times - 1) * mean / fmax(mean_of(seen) - mean, 1e-9), 0.2), 5);
+        off = fmin(fmax((times - 1) * mean / fmax(meter_mean(seen) - mean, 1e-9), 0.2), 5);
     }
     look->added = LOOK_ADDED_LAMP, look->is_balanced = 1;
     return code;
@@ -386,23 +218,23 @@ static int balance_windows(Look *look, const LookParams *params, Seen *seen, Ret
 
 int look_at(Look *look, const LookParams *params, RetexError *err)
 {
-    Seen seen;
+    Meter seen;
     memset(look, 0, sizeof *look);
     int code = see(params, &seen, err);
     if (code)
         return code;
     look->is_seen = seen.count > 0, look->is_noisy = seen.is_noisy;
     look->lit = seen.stops < MOST_STOPS ? 1 - seen.dark : 0;
-    look->is_bare = is_bare(&seen) && params->is_framed;
+    look->is_bare = meter_is_bare(&seen) && params->is_framed;
     if (look->is_seen)
         code = add_light(look, params, &seen, err);
     if (!code && look->is_seen)
         code = balance_windows(look, params, &seen, err);
     look->is_black = !(seen.bright > 0) || seen.stops >= MOST_STOPS;
     const int has_sky = number_after(params, LOOK_DECLARE(LOOK_ADDED_SKY), "", NAN) > 0;
-    const int is_white = has_sky ? lit_at(&seen, 0) < 0.9 : seen.white >= 0.1; /* its own windows may be */
+    const int is_white = has_sky ? meter_lit(&seen, 0) < 0.9 : seen.white >= 0.1; /* its own windows may be */
     if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.dark < 0.1 && !is_white))
         return code;
-    look->exposure = fmax(whole_stops(&seen), -RETEX_EXPOSURE_MAX);
+    look->exposure = fmax(meter_whole_stops(&seen), -RETEX_EXPOSURE_MAX);
     return look_expose(params, look->exposure, err);
 }
