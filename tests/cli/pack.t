@@ -126,9 +126,9 @@ $ python3 - <<'END'
 + END
 > [28.0, 31.0, 34.0, 50.0] True
 > [[True, True, True, True], [True, True, True, True], [True, True, True, True], [True, True, True, True]]
-# The picture of a lossless pack is what differs from the one that its terms give: of a denoised set nothing does.
+# Lossless packs of rendered and of denoised sets, too.
 $ for s in g gd; do
-+     retex-pack -q --lossless $s.exr -o l.retex --stats $s.json
++     retex-pack -q --lossless $s.exr -o l.retex
 +     retex-info --check l.retex >/dev/null
 +     echo $?
 +     retex-pack -q --unpack l.retex -o back.exr
@@ -136,12 +136,6 @@ $ for s in g gd; do
 + done
 > 0
 > 0
-$ python3 - <<'END'
-+ import json
-+ p = [json.load(open(s + ".json"))["bytes"]["picture"] for s in ("g", "gd")]
-+ print(p[0] > 0, p[1])
-+ END
-> True 0
 $ retex-pack -q --unpack - <l.retex | retex-pack -q --lossless - | cmp - l.retex
 $ retex-combine -q gd.exr -o o.exr
 $ retex-combine -q l.retex -o p.exr

@@ -7,8 +7,6 @@
 
 #include <cmocka.h>
 
-#include <retex/host/uv_stats.h>
-
 #include "pack/open.h"
 #include "pack/strips.h"
 #include "pack/plan.h"
@@ -45,40 +43,36 @@ static void test_lossless_keeps_every_bit(void **state)
     retex_set_close(&set);
 }
 
-/* Means that are rounded as rendering rounds them are stored as multiples of their steps, which is far smaller; others,
- * if only one, are not; either way every bit is kept. */
-static void test_rounded_means_are_small(void **state)
+/* Parts of few different values have a palette of them, which is smaller; others, and small ones, have not; either way
+ * every bit is kept, of zeros with a sign and of infinities too. */
+static void test_few_values_have_a_palette(void **state)
 {
     (void)state;
-    size_t bytes[2];
+    enum { FEW = 106, PIXELS = 97 * 70 }; /* 64 pixels for each */
     RetexPackParams params = lossless();
     RetexSet *set = test_set(97, 70, 4);
-    for (int i = 0; i < set->nfootprints; i++) {
-        RetexImage *means = &set->parts[set->footprints[i].uv].image;
-        const RetexImage *sigmas = &set->parts[set->footprints[i].spread].image;
-        for (size_t k = 0; k < (size_t)means->width * (size_t)means->height; k++) {
-            RetexUvStats place = {.weight = 1};
-            float spread[3];
-            for (size_t c = 0; c < 2; c++) {
-                const double sigma = (double)sigmas->pixels[k * (size_t)sigmas->channels + c];
-                place.mean[c] = (double)means->pixels[3 * k + c];
-                place.m2[2 * c] = k % 5 ? sigma * sigma : 0; /* and some of one place */
+    const int parts[2] = {retex_set_find_part(set, "depth"), set->footprints[0].albedo};
+    assert_int_equal(set->parts[parts[0]].type, RETEX_FLOAT);
+    set->parts[parts[1]].type = RETEX_HALF;
+    size_t bytes[2];
+    for (int few = 0; few < 2; few++) {
+        uint32_t seed = 5;
+        for (int i = 0; i < 2; i++) {
+            const RetexImage *im = &set->parts[parts[i]].image;
+            for (int k = 0; k < PIXELS * im->channels; k++) {
+                const int value = (int)(test_random(&seed) * FEW);
+                im->pixels[k] = value == 0 ? -0.0f : value == 1 && i == 0 ? INFINITY : (float)value / 128;
             }
-            retex_uv_stats_store(&place, means->pixels + 3 * k, spread);
-            memcpy(sigmas->pixels + k * (size_t)sigmas->channels, spread, 2 * sizeof *spread);
+            im->pixels[0] = few ? 0.25f : 0.875f; /* one of the others, or one more */
         }
-    }
-    const int uv = set->footprints[0].uv;
-    float *one = &set->parts[uv].image.pixels[3 * 40];
-    for (int odd = 0; odd < 2; odd++) {
         RetexPackPart *plan = calloc((size_t)set->nparts, sizeof *plan);
-        test_must(retex_pack_plan(plan, set, NULL, 1, NULL), NULL);
-        assert_int_equal(plan[uv].codec,
-                         odd ? RETEX_PACK_PLANES : RETEX_PACK_MODEL); /* these end in zeros all the same */
-        assert_int_equal(plan[uv].maps[1].kind, odd ? RETEX_PACK_MAP_BITS : RETEX_PACK_MAP_LATTICE);
+        test_must(retex_pack_plan(plan, set, NULL, 2, NULL), NULL);
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(plan[parts[i]].maps[0].kind, few ? RETEX_PACK_MAP_PALETTE : RETEX_PACK_MAP_BITS);
+        assert_int_equal(plan[parts[1]].maps[1].kind, RETEX_PACK_MAP_PALETTE);
         free(plan);
-        unsigned char *data = pack(set, &params, &bytes[odd], 0);
-        RetexSet *back = unpack(data, bytes[odd]);
+        unsigned char *data = pack(set, &params, &bytes[few], 0);
+        RetexSet *back = unpack(data, bytes[few]);
         for (int i = 0; i < set->nparts; i++) {
             const RetexImage *im = &set->parts[i].image;
             assert_memory_equal(back->parts[i].image.pixels, im->pixels,
@@ -86,9 +80,9 @@ static void test_rounded_means_are_small(void **state)
         }
         free(data);
         retex_set_close(&back);
-        *one = nextafterf(*one, 2);
     }
-    assert_true(bytes[0] + 2000 < bytes[1]);
+    print_message("with palettes: %d bytes instead of %d\n", (int)bytes[1], (int)bytes[0]);
+    assert_true(bytes[1] + 500 < bytes[0]);
     retex_set_close(&set);
 }
 
@@ -246,7 +240,7 @@ static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
         assert_int_equal(before[part].codec, RETEX_PACK_JPEG);
         set->parts[part].image.pixels[7] = odd[i];
         RetexPackPart *after = plan_of(set);
-        assert_int_equal(after[part].codec, RETEX_PACK_MODEL);
+        assert_int_equal(after[part].codec, RETEX_PACK_PLANES);
         assert_int_equal(after[part].maps[1].kind, RETEX_PACK_MAP_BITS);
         free(before);
         free(after);
@@ -434,7 +428,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lossless_keeps_every_bit),
-        cmocka_unit_test(test_rounded_means_are_small),
+        cmocka_unit_test(test_few_values_have_a_palette),
         cmocka_unit_test(test_default_is_close_and_smaller),
         cmocka_unit_test(test_nothing_is_zero),
         cmocka_unit_test(test_denoise_data_is_dropped),

@@ -182,6 +182,29 @@ static void test_steps_that_lie_are_refused(void **state)
         refuse_change_of(set_of_axes(20, 70), NULL, changes[k][0], changes[k][1], "not sound");
 }
 
+/* Palettes have numbers of the part's type, which ascend. */
+static void test_palettes_that_lie_are_refused(void **state)
+{
+    static const char *const numbers[] = {"[1073741824,1065353216]",
+                                          "[1065353216,1065353216]",
+                                          "[1065353216,2147483648]",
+                                          "[-2147483649,1065353216]",
+                                          "[1065353216,1073741824.5]",
+                                          "[]",
+                                          "1065353216",
+                                          "{\"0\":1065353216}"};
+    (void)state;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        char changed[64];
+        RetexSet *set = test_set(16, 8, 7);
+        const RetexImage *depth = &set->parts[retex_set_find_part(set, "depth")].image;
+        for (int i = 0; i < 16 * 8; i++)
+            depth->pixels[i] = (float)(1 + i % 2);
+        snprintf(changed, sizeof changed, "\"numbers\":%s", numbers[k]);
+        refuse_change_of(set, NULL, "\"numbers\":[1065353216,1073741824]", changed, "not sound");
+    }
+}
+
 static void test_other_zips_are_refused(void **state)
 {
     (void)state;
@@ -198,6 +221,7 @@ int main(void)
         cmocka_unit_test(test_every_flipped_byte_is_seen),  cmocka_unit_test(test_truncated_packs_are_refused),
         cmocka_unit_test(test_foreign_entries_are_refused), cmocka_unit_test(test_manifests_that_lie_are_refused),
         cmocka_unit_test(test_other_zips_are_refused),      cmocka_unit_test(test_steps_that_lie_are_refused),
+        cmocka_unit_test(test_palettes_that_lie_are_refused),
     };
     return cmocka_run_group_tests_name("pack damage", tests, NULL, NULL);
 }

@@ -9,14 +9,12 @@
 
 #include "io/checksum.h"
 #include "pack/balance.h"
-#include "pack/combine.h"
-#include "pack/model.h"
 #include "set/set.h"
 
 /* Times a mean is changed at most; where that is not enough, steps become finer. */
 static const double CHANGE_MOST = 1.1;
-static const int EFFORT = 8;                      /* of blosc's zstd */
-static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a slice that this codec cannot encode */
+static const int EFFORT = 8;          /* of blosc's zstd; */
+static const int LOSSLESS_EFFORT = 6; /* without loss, where 8 would take twice the time for 3 % less */
 
 static int no_memory(RetexError *err)
 {
@@ -292,7 +290,7 @@ static int encode_strip(const RetexPackEncoded *w, int part, int index)
                                       .shift = lattice ? strip.shift : NULL,
                                       .numbers = strip.numbers};
         unsigned char *data = malloc(retex_pack_plane_bound(&plane));
-        const long bytes = data ? retex_pack_plane_encode(data, &plane, strip.scratch, EFFORT) : -1;
+        const long bytes = data ? retex_pack_plane_encode(data, &plane, strip.scratch, w->effort) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
         item->slices[k] = fitted ? fitted : data;
         p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
@@ -302,90 +300,19 @@ static int encode_strip(const RetexPackEncoded *w, int part, int index)
     return ok;
 }
 
-/* --- lossless strips --- */
-
-/* Compute the shifts of means from their standard deviations. */
-static void fill_mean_shifts(RetexPackModelStrip *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
-{
-    const RetexImage *sigma = &w->set->parts[p->sigma].image;
-    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * RETEX_PACK_STRIP_ROWS);
-    for (int c = 0; c < p->channels; c++)
-        for (size_t i = 0; model->shifts[c] && i < (size_t)model->width * (size_t)model->rows; i++)
-            model->shifts[c][i] = (unsigned char)retex_pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
-}
-
-static int encode_model_strip(const RetexPackEncoded *w, int part, int index)
-{
-    RetexPackItem *item = &w->items[part];
-    RetexPackPart *p = item->packed;
-    RetexPackModelStrip model;
-    int finite = 1;
-    long bytes = -1;
-    if (retex_pack_model_alloc(&model, p->width, retex_pack_strip_rows(p, index), p->channels, p->maps)) {
-        for (int c = 0; c < p->channels; c++)
-            numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
-        if (p->sigma >= 0)
-            fill_mean_shifts(&model, w, p, index);
-        int code = p->codec == RETEX_PACK_COMBINED
-                       ? retex_pack_combine_subtract(&model, w->set, index * RETEX_PACK_STRIP_ROWS, &finite, NULL)
-                       : 0;
-        bytes = code ? -1 : retex_pack_model_encode(&item->slices[index], &model);
-    }
-    retex_pack_model_free(&model);
-    p->bytes[index] = !finite ? NOT_ENCODABLE : bytes > 0 ? (uint32_t)bytes : 0;
-    return bytes >= 0;
-}
-
-/* If the set allows, encode part 0 twice: minus the recombination of the terms, and alone. choose_picture keeps the
- * smaller one. */
-static int plan_combined(RetexPackEncoded *w, int nthreads, RetexError *err)
-{
-    RetexPackPart *picture = &w->packed[0];
-    const int fits = picture->codec == RETEX_PACK_MODEL ? retex_pack_combine_fits(w->set, err) : 0;
-    if (fits < 0 || !fits || !retex_pack_combine_is_stored(w->set, nthreads))
-        return fits < 0 ? fits : 0;
-    w->packed[w->set->nparts] = *picture;
-    w->nitems = w->set->nparts + 1;
-    picture->codec = RETEX_PACK_COMBINED;
-    return 0;
-}
-
-static uint64_t bytes_of(const RetexPackPart *packed)
-{
-    uint64_t bytes = 0;
-    for (int k = 0; k < packed->nslices; k++)
-        bytes += packed->bytes[k];
-    return bytes;
-}
-
-/* Keep the smaller encoding of part 0. RETEX_PACK_COMBINED counts as too large if the recombination is not finite
- * somewhere: readers may skip a term that is black in a whole row, so the sum is then not defined. */
-static void choose_picture(RetexPackEncoded *w)
-{
-    RetexPackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
-    if (w->nitems == w->set->nparts || bytes_of(items[0]->packed) < bytes_of(items[1]->packed))
-        return;
-    const RetexPackPart packed = *items[0]->packed;
-    unsigned char **slices = items[0]->slices;
-    *items[0]->packed = *items[1]->packed;
-    items[0]->slices = items[1]->slices;
-    *items[1]->packed = packed;
-    items[1]->slices = slices;
-}
-
 /* --- all parts --- */
 
 /* Number of strips that are jobs of their own: 0 for JPEGs, which are encoded whole. */
 static int strips_to_encode(const RetexPackPart *packed)
 {
-    return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nstrips : 0;
+    return packed->codec == RETEX_PACK_PLANES ? packed->nstrips : 0;
 }
 
 static void encode_whole(void *context, int index, int thread)
 {
     RetexPackEncoded *w = context;
     RetexPackItem *item = &w->items[index];
-    const int light = index < w->set->nparts ? retex_pack_light_of(w->set, index) : -1;
+    const int light = retex_pack_light_of(w->set, index);
     (void)thread;
     if ((light >= 0 && light != index) != w->gains)
         return;
@@ -405,14 +332,12 @@ static void encode_job(void *context, int index, int thread)
     RetexPackEncoded *w = context;
     (void)thread;
     const int part = w->jobs[2 * index], strip = w->jobs[2 * index + 1];
-    const int ok =
-        retex_pack_is_modelled(&w->packed[part]) ? encode_model_strip(w, part, strip) : encode_strip(w, part, strip);
-    w->codes[index] = ok ? 0 : RETEX_ENOMEM;
+    w->codes[index] = encode_strip(w, part, strip) ? 0 : RETEX_ENOMEM;
 }
 
 static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
-    const int count = w->nitems;
+    const int count = w->set->nparts;
     int code = 0, strips = 0;
     for (w->gains = 0; w->gains < 2; w->gains++) /* gains after the light that they are of */
         retex_parallel(nthreads, count, encode_whole, w);
@@ -438,8 +363,7 @@ static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
     for (int i = 0; i < w->njobs; i++)
         if (w->codes[i])
             return no_memory(err);
-    choose_picture(w);
-    for (int i = 0; i < w->set->nparts; i++)
+    for (int i = 0; i < count; i++)
         for (int k = 0; k < w->packed[i].nslices; k++)
             w->packed[i].crcs[k] = retex_crc32(CRC32_OF_NONE, w->items[i].slices[k], w->packed[i].bytes[k]);
     return 0;
@@ -466,7 +390,7 @@ static int encode_picture(RetexPackEncoded *w, RetexError *err)
 
 void retex_pack_encoded_free(RetexPackEncoded *w)
 {
-    for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
+    for (int i = 0; w->items && w->packed && i < w->set->nparts; i++) {
         const RetexPackPart *p = &w->packed[i];
         for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0; w->items[i].slices && k < p->nslices; k++)
             free(w->items[i].slices[k]);
@@ -485,16 +409,14 @@ void retex_pack_encoded_free(RetexPackEncoded *w)
 int retex_pack_encode(RetexPackEncoded *w, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
                       RetexError *err)
 {
-    *w = (RetexPackEncoded){.set = set, .nitems = set->nparts};
+    *w = (RetexPackEncoded){.set = set, .effort = quantizer ? EFFORT : LOSSLESS_EFFORT};
     w->packed = calloc((size_t)set->nparts + 1, sizeof *w->packed);
     w->items = calloc((size_t)set->nparts + 1, sizeof *w->items);
     int code = w->packed && w->items ? 0 : no_memory(err);
     if (!code)
         code = retex_pack_plan(w->packed, set, quantizer, nthreads, err);
-    if (!code && !quantizer)
-        code = plan_combined(w, nthreads, err);
-    for (int i = 0; !code && i < w->nitems; i++) {
-        w->items[i].part = &set->parts[i % set->nparts];
+    for (int i = 0; !code && i < set->nparts; i++) {
+        w->items[i].part = &set->parts[i];
         w->items[i].packed = &w->packed[i];
     }
     if (!code)

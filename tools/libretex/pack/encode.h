@@ -20,8 +20,8 @@ typedef struct RetexPackEncoded {
     const RetexSet *set;
     RetexPackPart *packed;
     RetexPackItem *items;
-    int nitems;            /* one for each part; one more if part 0 is also tried alone, not as RETEX_PACK_COMBINED */
     RetexPackJpeg picture; /* for viewers, if the pack is lossless */
+    int effort;            /* of compressing planes */
     int gains;             /* 1: gains are encoded, 0: all else */
     int *jobs;             /* pairs: part and strip */
     int njobs;

@@ -11,9 +11,8 @@
 #include "base/half.h"
 #include "base/json_write.h"
 #include "set/manifest.h"
-#include "pack/combine.h"
 
-const char *const retex_pack_codec_names[RETEX_PACK_CODECS] = {"zero", "planes", "model", "combined", "jpeg"};
+const char *const retex_pack_codec_names[RETEX_PACK_CODECS] = {"zero", "planes", "jpeg"};
 
 void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part)
 {
@@ -30,7 +29,6 @@ int retex_pack_part_slices(RetexPackPart *packed, RetexError *err)
 {
     packed->nslices = packed->codec == RETEX_PACK_ZERO     ? 0
                       : packed->codec == RETEX_PACK_PLANES ? packed->nstrips * packed->channels
-                      : retex_pack_is_modelled(packed)     ? packed->nstrips
                                                            : 1 + packed->nstrips * (1 + packed->masked);
     packed->bytes = calloc((size_t)packed->nslices + 1, sizeof *packed->bytes);
     packed->crcs = calloc((size_t)packed->nslices + 1, sizeof *packed->crcs);
@@ -46,11 +44,6 @@ void retex_pack_part_free(RetexPackPart *packed)
     packed->bytes = packed->crcs = NULL;
 }
 
-int retex_pack_is_modelled(const RetexPackPart *packed)
-{
-    return packed->codec == RETEX_PACK_MODEL || packed->codec == RETEX_PACK_COMBINED;
-}
-
 int retex_pack_strip_rows(const RetexPackPart *packed, int strip)
 {
     const int left = packed->height - strip * RETEX_PACK_STRIP_ROWS;
@@ -62,17 +55,6 @@ int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octa
     const int octaves = code - 1 + packed->sigma_first;
     const int shift = code > 0 && octaves > 0 ? octaves / per_octave : 0;
     return shift < RETEX_PACK_LATTICE_SHIFT_MAX ? shift : RETEX_PACK_LATTICE_SHIFT_MAX;
-}
-
-int retex_pack_mean_shift(float sigma)
-{
-    int exponent;
-    if (!(sigma > 0) || isinf(sigma))
-        return 0;
-    /* a power of two may be the result of rounding up, so its mean may have the smaller step */
-    const int exact = frexp((double)sigma, &exponent) == 0.5;
-    const int shift = exponent - 1 - exact - RETEX_PACK_MEAN_BITS + RETEX_PACK_LATTICE_BITS;
-    return shift < 0 ? 0 : shift < RETEX_PACK_LATTICE_SHIFT_MAX ? shift : RETEX_PACK_LATTICE_SHIFT_MAX;
 }
 
 int retex_pack_mask_width(const RetexPackPart *packed)
@@ -136,6 +118,13 @@ static const char *octaves_key(const RetexPackMap *map)
 static json_t *describe_map(const RetexPackMap *map)
 {
     json_t *o = json_pack("{s:s}", "map", retex_pack_map_names[map->kind]);
+    if (map->kind == RETEX_PACK_MAP_PALETTE) {
+        json_t *numbers = json_array();
+        for (int i = 0; i < map->count; i++)
+            retex_json_add(&numbers, json_integer(map->palette[i]));
+        retex_json_put(&o, "numbers", numbers);
+        return o;
+    }
     if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_ANGLE)
         retex_json_put(&o, "first", json_real(map->first));
     if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_LINEAR)
@@ -158,7 +147,7 @@ static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart 
         retex_json_put(&o, "levels", json_real(packed->curve.levels));
         retex_json_put(&o, "masked", json_boolean(packed->masked));
     }
-    if (packed->codec == RETEX_PACK_PLANES || packed->codec == RETEX_PACK_MODEL) {
+    if (packed->codec == RETEX_PACK_PLANES) {
         json_t *channels = json_array();
         for (int c = 0; c < packed->channels; c++)
             retex_json_add(&channels, describe_map(&packed->maps[c]));
@@ -167,8 +156,7 @@ static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart 
             retex_json_put(&o, "present", json_string(set->parts[packed->present].name));
         if (packed->sigma >= 0) {
             retex_json_put(&o, "sigma", json_string(set->parts[packed->sigma].name));
-            if (packed->codec == RETEX_PACK_PLANES)
-                retex_json_put(&o, "sigma_first", json_integer(packed->sigma_first));
+            retex_json_put(&o, "sigma_first", json_integer(packed->sigma_first));
         }
     }
     return o;
@@ -253,7 +241,21 @@ int retex_pack_levels_of(RetexPackScales *levels, const char *manifest, RetexErr
     return sound ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its list of smaller sets is not sound");
 }
 
-static int parse_map(RetexPackMap *map, const json_t *o)
+/* The numbers of a palette, which ascend. */
+static int parse_palette(RetexPackMap *map, const json_t *numbers, RetexPixelType type)
+{
+    const int most = type == RETEX_HALF ? INT16_MAX : INT32_MAX;
+    int least = -most - 1, ok = json_array_size(numbers) > 0 && json_array_size(numbers) <= RETEX_PACK_CODES;
+    for (size_t i = 0; ok && i < json_array_size(numbers); i++) {
+        ok = get_integer(json_array_get(numbers, i), least, most, &map->palette[map->count++]);
+        ok = ok && (i == 0 || map->palette[i] > map->palette[i - 1]);
+        least = map->palette[i];
+    }
+    retex_pack_map_fill_palette(map, type);
+    return ok;
+}
+
+static int parse_map(RetexPackMap *map, const json_t *o, RetexPixelType type)
 {
     const char *name = json_string_value(json_object_get(o, "map"));
     int kind = 0, ok = 1;
@@ -262,6 +264,8 @@ static int parse_map(RetexPackMap *map, const json_t *o)
     if (!name || kind == RETEX_PACK_MAPS)
         return 0;
     map->kind = (RetexPackMapKind)kind;
+    if (map->kind == RETEX_PACK_MAP_PALETTE)
+        return parse_palette(map, json_object_get(o, "numbers"), type);
     if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_ANGLE)
         ok = get_positive(json_object_get(o, "first"), &map->first);
     if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_LINEAR)
@@ -299,10 +303,8 @@ static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *
     while (codec && c < RETEX_PACK_CODECS && strcmp(codec, retex_pack_codec_names[c]) != 0)
         c++;
     if (codec && c == RETEX_PACK_CODECS)
-        return retex_fail(err, RETEX_EUNSUPPORTED,
-                          "a part is packed as '%.64s'; this version knows %s, %s, %s, %s and %s", codec,
-                          retex_pack_codec_names[0], retex_pack_codec_names[1], retex_pack_codec_names[2],
-                          retex_pack_codec_names[3], retex_pack_codec_names[4]);
+        return retex_fail(err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s and %s",
+                          codec, retex_pack_codec_names[0], retex_pack_codec_names[1], retex_pack_codec_names[2]);
     packed->codec = codec ? (RetexPackCodec)c : RETEX_PACK_ZERO;
     ok = codec != NULL && packed->channels <= RETEX_PACK_CHANNELS_MAX;
     if (ok && packed->codec == RETEX_PACK_JPEG) {
@@ -314,31 +316,17 @@ static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *
              packed->height <= RETEX_PACK_JPEG_SIDE_MAX;
         packed->masked = json_is_true(masked);
     }
-    if (ok && (packed->codec == RETEX_PACK_PLANES || packed->codec == RETEX_PACK_MODEL)) {
+    if (ok && packed->codec == RETEX_PACK_PLANES) {
         const json_t *channels = json_object_get(o, "channels");
         ok = json_array_size(channels) == (size_t)packed->channels;
         for (int i = 0; ok && i < packed->channels; i++)
-            ok = parse_map(&packed->maps[i], json_array_get(channels, (size_t)i));
+            ok = parse_map(&packed->maps[i], json_array_get(channels, (size_t)i), packed->type);
         packed->present = named_part(o, "present", set, packed, &ok);
         packed->sigma = named_part(o, "sigma", set, packed, &ok);
-        if (packed->sigma >= 0 && packed->codec == RETEX_PACK_PLANES)
+        if (packed->sigma >= 0)
             ok = ok && get_integer(json_object_get(o, "sigma_first"), -100000, 100000, &packed->sigma_first);
     }
     return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
-}
-
-/* Check a RETEX_PACK_MODEL part: means on a lattice refer to standard deviations, which refer to no part. */
-static int modelled_is_sound(const RetexPackPart *packed, const RetexPackPart *all)
-{
-    int ok = packed->present < 0;
-    for (int c = 0; c < packed->channels; c++) {
-        const RetexPackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
-        ok = ok && (packed->maps[c].kind == RETEX_PACK_MAP_BITS || packed->maps[c].kind == RETEX_PACK_MAP_LATTICE);
-        if (packed->maps[c].kind == RETEX_PACK_MAP_LATTICE)
-            ok = ok && packed->type == RETEX_FLOAT && sigma && sigma->codec == RETEX_PACK_MODEL && sigma->sigma < 0 &&
-                 c < sigma->channels;
-    }
-    return ok;
 }
 
 /* Axes are steps in all channels, of the means whose coverage says where they are. */
@@ -362,8 +350,6 @@ static int is_step(const RetexPackPart *packed, int c)
 static int references_are_sound(int part, const RetexPackPart *all)
 {
     const RetexPackPart *packed = &all[part];
-    if (packed->codec == RETEX_PACK_MODEL)
-        return modelled_is_sound(packed, all);
     if (packed->codec != RETEX_PACK_PLANES)
         return 1;
     const RetexPackPart *present = packed->present >= 0 ? &all[packed->present] : NULL;
@@ -381,16 +367,6 @@ static int references_are_sound(int part, const RetexPackPart *all)
             return 0;
         }
     return 1;
-}
-
-static int part_is_sound(int part, const RetexSet *set, const RetexPackPart *packed, RetexError *err)
-{
-    int sound = packed[part].codec != RETEX_PACK_COMBINED ? references_are_sound(part, packed)
-                : part > 0                                ? 0
-                                                          : retex_pack_combine_fits(set, err);
-    if (sound == 0)
-        return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
-    return sound < 0 ? sound : 0;
 }
 
 /* Where UV are periodic whose steps are axes. */
@@ -420,7 +396,8 @@ int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *man
             code = parse_part(&packed[i], set, o, err);
     }
     for (int i = 0; !code && i < set->nparts; i++)
-        code = part_is_sound(i, set, packed, err);
+        if (!references_are_sound(i, packed))
+            code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
     if (!code)
         find_wraps(packed, set);
     for (int i = 0; !code && i < set->nparts; i++)

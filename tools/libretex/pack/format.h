@@ -22,11 +22,9 @@ enum {
 };
 
 typedef enum RetexPackCodec {
-    RETEX_PACK_ZERO,     /* every sample is +0: no data */
-    RETEX_PACK_PLANES,   /* planes/NAME.blk: one slice for each strip and channel */
-    RETEX_PACK_MODEL,    /* planes/NAME.blk: one slice for each strip, lossless */
-    RETEX_PACK_COMBINED, /* part 0 minus the recombination of the set's terms, coded as RETEX_PACK_MODEL */
-    RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, one slice for each strip; planes/NAME.blk: the mask's strips */
+    RETEX_PACK_ZERO,   /* every sample is +0: no data */
+    RETEX_PACK_PLANES, /* planes/NAME.blk: one slice for each strip and channel */
+    RETEX_PACK_JPEG,   /* radiance/NAME.jpg: header, one slice for each strip; planes/NAME.blk: the mask's strips */
     RETEX_PACK_CODECS
 } RetexPackCodec;
 
@@ -59,12 +57,8 @@ void retex_pack_part_free(RetexPackPart *packed);
 int retex_pack_strip_rows(const RetexPackPart *packed, int strip); /* 64, or fewer in the last one */
 /* The lattice's shift for a mean whose standard deviation has this code. */
 int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octave);
-/* The shift to which the renderer rounds a mean with this standard deviation. */
-int retex_pack_mean_shift(float sigma);
 /* Bytes of a mask's row. */
 int retex_pack_mask_width(const RetexPackPart *packed);
-/* 1: RETEX_PACK_MODEL or RETEX_PACK_COMBINED, one lossless slice for each strip. */
-int retex_pack_is_modelled(const RetexPackPart *packed);
 /* The name of the ZIP entry with a part's slices. planes: 0 = of its JPEG, 1 = of its planes. */
 void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part, int planes);
 

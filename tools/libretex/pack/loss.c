@@ -8,7 +8,7 @@
 
 #include <retex/combine.h>
 
-#include "retexture/combine_rows.h"
+#include "retexture/combine_check.h"
 #include "set/manifest.h"
 #include "pack/open.h"
 #include "picture/srgb_codes.h"

@@ -275,11 +275,6 @@ uint64_t retex_pack_part_bytes(const RetexPack *pack, int part)
     return bytes;
 }
 
-const char *retex_pack_part_codec(const RetexPack *pack, int part)
-{
-    return retex_pack_codec_names[pack->parts[part].codec];
-}
-
 /* --- smaller sets --- */
 
 int retex_pack_level(RetexPackLevel *level, const RetexSet *set, int index)

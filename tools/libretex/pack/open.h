@@ -13,9 +13,7 @@ typedef struct RetexPack RetexPack;
 int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err);
 RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
 
-/* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
-uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);
-const char *retex_pack_part_codec(const RetexPack *pack, int part);
+uint64_t retex_pack_part_bytes(const RetexPack *pack, int part); /* that it takes in the pack */
 
 /* Compare all checksums, those of smaller sets too; the set was opened from it. */
 int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err);

@@ -98,8 +98,7 @@ static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
     }
     const RetexPart *uv = &set->parts[f->uv], *spread = &set->parts[f->spread];
     const int apart = plan->roles[f->spread] != ROLE_NONE && plan->means[f->spread] != f->uv;
-    const int most = plan->quantizer ? RETEX_AXES : 3; /* without loss, steps are nothing to predict axes by */
-    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= most &&
+    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= RETEX_AXES &&
                     uv->image.width == spread->image.width && uv->image.height == spread->image.height && !apart &&
                     (plan->roles[f->uv] == ROLE_NONE || plan->means[f->spread] == f->uv);
     give_role(plan, f->uv, fit ? ROLE_MEAN : ROLE_EXACT);
@@ -433,65 +432,6 @@ static void plan_footprint(Planning *plan, const RetexFootprint *f, const RetexP
     p->sigma_first = (int)floor((log2(s->maps[0].first / share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
-/* 1 if all means are multiples of the steps to which the renderer rounds them, and none is -0. */
-static int on_lattice(const Planning *plan, int uv, int spread)
-{
-    const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
-    const Range *ranges = plan->ranges[uv];
-    const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
-    if (plan->set->parts[uv].type != RETEX_FLOAT || ranges[0].most_size >= farthest || ranges[1].most_size >= farthest)
-        return 0;
-    for (size_t i = 0; i < (size_t)means->width * (size_t)means->height; i++)
-        for (size_t c = 0; c < 2; c++) {
-            const float mean = means->pixels[i * (size_t)means->channels + c];
-            const int shift = retex_pack_mean_shift(sigmas->pixels[i * (size_t)sigmas->channels + c]);
-            const double steps = ldexp((double)mean, RETEX_PACK_LATTICE_BITS - shift);
-            if (steps != rint(steps) || (mean == 0 && signbit(mean)))
-                return 0;
-        }
-    return 1;
-}
-
-/* 1 if most means end in zero bits, as rounded numbers do. */
-static int ends_in_zeros(const RetexImage *means)
-{
-    const size_t count = (size_t)means->width * (size_t)means->height;
-    size_t rounded = 0, all = 0;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits;
-        memcpy(&bits, &means->pixels[i * (size_t)means->channels], sizeof bits);
-        all += bits != 0;
-        rounded += bits != 0 && (bits & 15) == 0;
-    }
-    return 2 * rounded > all;
-}
-
-/* Use RETEX_PACK_MODEL for lossless parts. Means are coded as multiples of the steps they were rounded to. Means that
- * were rounded otherwise, as by earlier versions, stay RETEX_PACK_PLANES, which compresses trailing zero bits
- * better. */
-static void plan_exact(Planning *plan)
-{
-    const RetexSet *set = plan->set;
-    for (int i = 0; i < set->nparts; i++) {
-        RetexPackPart *p = &plan->packed[i];
-        int exact =
-            p->codec == RETEX_PACK_PLANES && (plan->roles[i] != ROLE_MEAN || !ends_in_zeros(&set->parts[i].image));
-        for (int c = 0; c < p->channels; c++)
-            exact = exact && p->maps[c].kind == RETEX_PACK_MAP_BITS;
-        p->codec = exact ? RETEX_PACK_MODEL : p->codec;
-    }
-    for (int i = 0; i < set->nfootprints; i++) {
-        const int uv = set->footprints[i].uv, spread = set->footprints[i].spread;
-        if (uv < 0 || spread < 0 || plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD ||
-            plan->packed[uv].codec == RETEX_PACK_ZERO || plan->packed[uv].present >= 0 || plan->packed[uv].sigma >= 0 ||
-            plan->packed[spread].codec != RETEX_PACK_MODEL || !on_lattice(plan, uv, spread))
-            continue;
-        plan->packed[uv].codec = RETEX_PACK_MODEL;
-        plan->packed[uv].sigma = spread;
-        plan->packed[uv].maps[0].kind = plan->packed[uv].maps[1].kind = RETEX_PACK_MAP_LATTICE;
-    }
-}
-
 static void plan_parts(Planning *plan)
 {
     const RetexSet *set = plan->set;
@@ -523,6 +463,19 @@ static void plan_parts(Planning *plan)
                                ? &plan->quantizer->broad
                                : &plan->quantizer->sharp);
     }
+}
+
+/* What keeps its bits and has few different values, such as a texture of 8 bits, has a palette. */
+static void find_palettes(void *context, int part, int thread)
+{
+    const Planning *plan = context;
+    const RetexImage *im = &plan->set->parts[part].image;
+    RetexPackPart *p = &plan->packed[part];
+    (void)thread;
+    for (int c = 0; c < p->channels && p->codec == RETEX_PACK_PLANES; c++)
+        if (p->maps[c].kind == RETEX_PACK_MAP_BITS)
+            retex_pack_map_find_palette(&p->maps[c], im->pixels + c, (size_t)im->channels,
+                                        (size_t)im->width * (size_t)im->height, p->type);
 }
 
 int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
@@ -560,7 +513,7 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
     }
     if (!code) {
         plan_parts(&plan);
-        plan_exact(&plan);
+        retex_parallel(nthreads, set->nparts, find_palettes, &plan);
     }
     free(plan.roles);
     free(plan.means);

@@ -9,7 +9,6 @@
 #include <blosc.h>
 
 #include "pack/restore.h"
-#include "pack/zigzag.h"
 
 static const int TRIAL_EFFORT = 1; /* blosc's effort when predictors are compared */
 

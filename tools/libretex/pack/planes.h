@@ -18,27 +18,29 @@ typedef enum RetexPackMapKind {
     RETEX_PACK_MAP_LINEAR,  /* c * first */
     RETEX_PACK_MAP_ANGLE,   /* sin((c - 128) / per_octave * pi / 2): a correlation */
     RETEX_PACK_MAP_STEP,    /* axes, which are the steps of means (set/steps.h): c is the size along u or v as in LOG */
+    RETEX_PACK_MAP_PALETTE, /* where few samples differ, as in textures of 8 bits: c-th of them, in the order of BITS */
     RETEX_PACK_MAPS
 } RetexPackMapKind;
 
 extern const char *const retex_pack_map_names[RETEX_PACK_MAPS];
 
-enum {
-    RETEX_PACK_LATTICE_BITS = 18,
-    RETEX_PACK_LATTICE_SHIFT_MAX = 24,
-    RETEX_PACK_MEAN_BITS = 5,
-    RETEX_PACK_CODES = 256
-};
+enum { RETEX_PACK_LATTICE_BITS = 18, RETEX_PACK_LATTICE_SHIFT_MAX = 24, RETEX_PACK_CODES = 256 };
 
 typedef struct RetexPackMap {
     RetexPackMapKind kind;
     double first;
     int per_octave;
-    float value[RETEX_PACK_CODES]; /* by code, for kinds from LOG on */
+    float value[RETEX_PACK_CODES];     /* by code, for kinds from LOG on */
+    int32_t palette[RETEX_PACK_CODES]; /* of PALETTE: by code, the number that BITS has, ascending */
+    int count;                         /* of numbers in the palette */
 } RetexPackMap;
 
 int retex_pack_map_is_coded(const RetexPackMap *map); /* 1: numbers are codes from 0 to 255 */
-void retex_pack_map_fill(RetexPackMap *map);          /* compute value[] from the other fields */
+void retex_pack_map_fill(RetexPackMap *map);          /* compute value[] from first and per_octave */
+void retex_pack_map_fill_palette(RetexPackMap *map, RetexPixelType type); /* and from the palette */
+/* Make a map of BITS one of PALETTE, if that is small for so many samples, `stride` floats apart. */
+void retex_pack_map_find_palette(RetexPackMap *map, const float *samples, size_t stride, size_t count,
+                                 RetexPixelType type);
 /* Turn `count` samples, `stride` floats apart, into numbers, and numbers into samples; of steps into the numbers of
  * their sizes: samples are those to the right, two channels on are those down. */
 void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,

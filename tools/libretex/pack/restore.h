@@ -3,7 +3,6 @@
 #define RETEX_PACK_RESTORE_H
 
 #include "pack/planes.h"
-#include "pack/zigzag.h"
 
 /* How a number is predicted where its left, upper and upper left neighbours matter. At an edge of what matters it is by
  * the left one, else the upper one, else the last one that was met in the row. */
@@ -15,6 +14,17 @@ typedef enum RetexPackPredictor {
     BY_MEDIAN,
     PREDICTORS
 } RetexPackPredictor;
+
+/* Signed residuals as unsigned numbers, small ones of either sign as small numbers. */
+static inline uint32_t zigzag_encode(int32_t residual)
+{
+    return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
+}
+
+static inline int32_t zigzag_decode(uint32_t code)
+{
+    return (int32_t)(code >> 1 ^ (0u - (code & 1)));
+}
 
 static inline int32_t add(int32_t a, int32_t b)
 {

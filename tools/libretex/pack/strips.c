@@ -6,11 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack/combine.h"
-#include "pack/model.h"
-
-static int cache_strip(int part, int strip, RetexPackScratch *s, RetexError *err);
-
 int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, RetexError *err)
 {
     RetexPackScratch *s = *result = calloc(1, sizeof *s);
@@ -53,57 +48,6 @@ void retex_pack_scratch_close(RetexPackScratch **result)
 const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch)
 {
     return scratch->pack;
-}
-
-/* The rows of a strip that are not all 0: bit y of row y. */
-static uint64_t find_nonzero(const RetexPackPart *p, int strip, const float *rows)
-{
-    const size_t row = (size_t)p->width * (size_t)p->channels;
-    uint64_t lit = 0;
-    for (int y = 0; y < retex_pack_strip_rows(p, strip); y++)
-        lit |= (uint64_t)retex_pack_any_nonzero(rows + (size_t)y * row, row * sizeof *rows) << y;
-    return lit;
-}
-
-/* Shifts of means, from the standard deviations of the strip, which are decoded for it. */
-static int fill_mean_shifts(int part, int strip, RetexPackModelStrip *model, RetexPackScratch *s, RetexError *err)
-{
-    const RetexPackPart *p = &s->pack->parts[part], *sigma = &s->pack->parts[p->sigma];
-    const size_t pixels = (size_t)model->width * (size_t)model->rows;
-    int code = cache_strip(p->sigma, strip, s, err);
-    const RetexPackCachedStrip *cached = &s->cached[p->sigma];
-    for (int c = 0; !code && c < p->channels; c++)
-        for (size_t i = 0; model->shifts[c] && i < pixels; i++) {
-            const int is_black = !(cached->lit >> i / (size_t)model->width & 1);
-            const float deviation = is_black ? 0 : cached->rows[i * (size_t)sigma->channels + (size_t)c];
-            model->shifts[c][i] = (unsigned char)retex_pack_mean_shift(deviation);
-        }
-    return code;
-}
-
-static int decode_model(int part, int strip, float *out, RetexPackScratch *s, RetexError *err)
-{
-    const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackModelStrip model;
-    int code = retex_pack_model_alloc(&model, p->width, retex_pack_strip_rows(p, strip), p->channels, p->maps)
-                   ? 0
-                   : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    if (!code && p->sigma >= 0)
-        code = fill_mean_shifts(part, strip, &model, s, err);
-    if (!code)
-        code = retex_pack_read_slice(part, strip, 0, s, err);
-    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->slice, p->bytes[strip]);
-    if (decoded < 0)
-        code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    else if (!decoded)
-        code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
-    if (!code && p->codec == RETEX_PACK_COMBINED)
-        code = retex_pack_combine_add(&model, s->pack->set, strip * RETEX_PACK_STRIP_ROWS, err);
-    for (int c = 0; !code && c < p->channels; c++)
-        retex_pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
-                               &p->maps[c], p->type);
-    retex_pack_model_free(&model);
-    return code;
 }
 
 /* ---- JPEGs ---- */
@@ -203,9 +147,7 @@ static int decode_blocks(int part, int line, RetexPackCachedStrip *cached, const
 /* How many rows of a part's strip are kept. */
 static int kept_rows(const RetexPackPart *p)
 {
-    return p->codec == RETEX_PACK_JPEG     ? RETEX_PACK_BLOCK_ROWS
-           : p->codec == RETEX_PACK_PLANES ? 1
-                                           : RETEX_PACK_STRIP_ROWS;
+    return p->codec == RETEX_PACK_JPEG ? RETEX_PACK_BLOCK_ROWS : 1;
 }
 
 /* Have the strip in the cache. */
@@ -214,20 +156,13 @@ static int cache_strip(int part, int strip, RetexPackScratch *s, RetexError *err
     const RetexPackPart *p = &s->pack->parts[part];
     const size_t row = (size_t)p->width * (size_t)p->channels;
     RetexPackCachedStrip *cached = &s->cached[part];
-    int code;
     if (cached->strip == strip)
         return 0;
     cached->strip = -1;
     if (!cached->rows && !(cached->rows = malloc(row * (size_t)kept_rows(p) * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    if (p->codec == RETEX_PACK_JPEG) {
-        code = open_jpeg(part, strip, cached, s, err);
-    } else if (p->codec == RETEX_PACK_PLANES) {
-        code = retex_pack_plane_strip_decode(part, strip, &cached->lit, s, err);
-    } else {
-        code = decode_model(part, strip, cached->rows, s, err);
-        cached->lit = code ? 0 : find_nonzero(p, strip, cached->rows);
-    }
+    int code = p->codec == RETEX_PACK_JPEG ? open_jpeg(part, strip, cached, s, err)
+                                           : retex_pack_plane_strip_decode(part, strip, &cached->lit, s, err);
     cached->strip = code ? -1 : strip;
     return code;
 }

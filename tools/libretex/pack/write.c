@@ -12,7 +12,7 @@
 #include <retex/set_file.h>
 
 #include "base/params.h"
-#include "retexture/combine_rows.h"
+#include "retexture/combine_check.h"
 #include "compact/build.h"
 #include "compact/compact.h"
 #include "io/output.h"

@@ -13,7 +13,7 @@
 #include "base/params.h"
 #include "base/image.h"
 #include "retexture/combine_kernel.h"
-#include "retexture/combine_rows.h"
+#include "retexture/combine_check.h"
 #include "retexture/develop.h"
 #include "base/value_check.h"
 #include "retexture/polynomial_strips.h"
@@ -158,35 +158,14 @@ int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSample
     return code;
 }
 
-/* ---- with the originals, some rows ---- */
-
-static int open_original(RetexPolynomial *polynomial, const RetexSet *set, RetexError *err)
-{
-    RetexCombineParams all = RETEX_COMBINE_INIT;
-    all.terms_only = 1;
-    return retex_polynomial_open(polynomial, set, NULL, NULL, &all, POLYNOMIAL_GROUPED, 1, err);
-}
-
 int retex_combine_check(const RetexSet *set, RetexError *err)
 {
+    RetexCombineParams all = RETEX_COMBINE_INIT;
     RetexPolynomial polynomial;
-    int code = open_original(&polynomial, set, err);
+    all.terms_only = 1;
+    int code = retex_polynomial_open(&polynomial, set, NULL, NULL, &all, POLYNOMIAL_GROUPED, 1, err);
     retex_polynomial_close(&polynomial);
     return code == RETEX_ENOMEM ? code : code == RETEX_OK;
-}
-
-int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)
-{
-    RetexPolynomial polynomial;
-    RetexPolynomialRow row = {0};
-    int code = open_original(&polynomial, set, err);
-    if (!code)
-        code = retex_polynomial_row_open(&row, &polynomial, err);
-    if (!code)
-        code = combine_strip(NULL, &row, y0, y1, out, err);
-    retex_polynomial_row_close(&row);
-    retex_polynomial_close(&polynomial);
-    return code;
 }
 
 /* ---- into an image ---- */
