@@ -95,7 +95,7 @@ def write_set(path, target, images, samples):
         specs.append(spec)
         arrays.append(np.ascontiguousarray(array))
     manifest = {
-        "retex": 2, "crc32": "00000000", "kind": "set", "width": width, "height": height,
+        "retex": 1, "crc32": "00000000", "kind": "set", "width": width, "height": height,
         "layout": "footprints", "filter": "box", "scene": "aovs", "generator": "aovs_to_set.py", "id": "00000000",
         "orders": 1, "spp": samples, "max_depth": 1, "seed": 0, "folded": 0, "strict_paper": False,
         "targets": [{"name": target, "idents": target, "periodic": [False, False],

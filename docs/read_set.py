@@ -14,7 +14,7 @@ import OpenImageIO as oiio
 
 POINTS = 24  # 24 x 24 points of each footprint
 KNOWN = {
-    "version": [2], "kind of file": ["set", "stream"], "kind of parameter": ["color", "correction"],
+    "version": [1], "kind of file": ["set", "stream"], "kind of parameter": ["color", "correction"],
     "kind of factor": ["footprint", "mixture", "image", "parameter"], "quantity": ["color", "further"],
     "role": "full indep dep cross2 cross3 sharp broad interreflection correction picture lamp lamp_picture".split()}
 
@@ -28,8 +28,9 @@ def read_file(path):
     file = oiio.ImageInput.open(path)
     text = file and file.spec().getattribute("retex")
     text or sys.exit(f"read_set.py: {path} is no set")
-    manifest, begin = json.loads(text), '{"retex":2,"crc32":"'
-    known("version", manifest["retex"]), known("kind of file", manifest["kind"])
+    manifest, begin = json.loads(text), '{"retex":1,"crc32":"'
+    known("version", manifest["retex"] if "parameters" in manifest else "before the release")
+    known("kind of file", manifest["kind"])
     blank = begin + "00000000" + text[len(begin) + 8:]
     zlib.crc32(blank.encode()) == int(manifest["crc32"], 16) or sys.exit("read_set.py: the manifest is damaged")
     samples = [image["part"] for image in manifest.get("samples", {}).get("images", []) if image["part"]]

@@ -36,10 +36,10 @@ $ ls m*
 $ sed 's/"mean_albedo":\[0/"mean_albedo":[1/' s.exr | retex-combine - -o m.png
 ! retex-combine: error: standard input: the manifest is damaged: its checksum is wrong
 = 2
-$ sed 's/{"retex":2/{"retex":3/' s.exr | retex-info --check -
+$ sed 's/{"retex":1/{"retex":3/' s.exr | retex-info --check -
 ! retex-info: error: standard input: the manifest is damaged: its checksum is wrong
 = 1
-$ sed 's/{"retex":2,"crc32"/{"retex":2,"crc33"/' s.exr | retex-info --check -
+$ sed 's/{"retex":1,"crc32"/{"retex":1,"crc33"/' s.exr | retex-info --check -
 ! retex-info: error: standard input: the manifest is damaged: its checksum is missing
 = 1
 

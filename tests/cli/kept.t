@@ -1,44 +1,7 @@
-# Files of version 1 of both formats, made once and kept: they stay whole, readable, and give the same pictures.
-$ cp -r "$TESTS/../data/version-1" v1
-% cd v1
-$ for f in *.exr *.retex; do case $f in picture-*) ;; *) retex-info --check $f ;; esac done
-> footprints.exr: ok
-> paper-samples.exr: ok
-> paper.exr: ok
-> footprints.retex: ok
-> paper.retex: ok
-% cd ..
-$ retex-info --check - <v1/footprints.stream
-> standard input: ok
-
-# Their pictures, by a stream and with samples too; denoised they are pictures, unpacked the sets.
-% cd v1
-$ for f in footprints.exr paper.exr footprints.retex; do
-+     retex-combine -q $f --texture 'Floor=rgb(.9,.2,.1)' -o x.exr
-+     retex-diff -q x.exr picture-$f.exr --fail-psnr 70 && echo $f
-+ done
-> footprints.exr
-> paper.exr
-> footprints.retex
-$ retex-combine -q - -o x.exr <footprints.stream
-$ retex-diff -q x.exr picture-footprints.exr.exr --fail-psnr 70
-$ retex-combine -q paper.retex --texture 'Floor=rgb(.9,.2,.1)' -o x.exr
-$ retex-diff -q x.exr picture-paper.exr.exr --fail-psnr 70
-$ retex-combine -q paper.exr paper-samples.exr -o x.exr
-$ retex-diff -q x.exr picture-paper.exr.exr --fail-psnr 70
-$ for f in footprints.exr paper.exr; do
-+     retex-denoise -q $f -o d.exr
-+     retex-combine -q d.exr -o x.exr
-+     retex-combine -q $f -o y.exr
-+     retex-diff -q x.exr y.exr --fail-psnr 20
-+ done
-$ retex-pack -q --unpack paper.retex -o u.exr
-$ retex-diff -q u.exr paper.exr --fail-psnr 120
-% cd ..
-
-# The same of version 2: lamps, finishes, a scene unit and normals; packs, one with levels.
-$ cp -r "$TESTS/../data/version-2" v2
-% cd v2
+# Files of version 1 of the formats, made once and kept: they stay whole, readable, and give the same pictures. Lamps,
+# finishes, a scene unit and normals; packs, one with levels.
+$ cp -r "$TESTS/../data/version-1" kept
+% cd kept
 $ for f in *.exr *.retex; do case $f in picture-*) ;; *) retex-info --check $f ;; esac done
 > denoised.exr: ok
 > lamps.exr: ok
@@ -51,11 +14,11 @@ $ for f in *.exr *.retex; do case $f in picture-*) ;; *) retex-info --check $f ;
 > normals.retex: ok
 > paper.retex: ok
 % cd ..
-$ retex-info --check - <v2/lamps.stream
+$ retex-info --check - <kept/lamps.stream
 > standard input: ok
-$ retex-info v2/lamps.exr | grep -E '^(scene unit|lamp)'
+$ retex-info kept/lamps.exr | grep -E '^(scene unit|lamp)'
 > scene unit     0.5 m
-$ retex-info v2/levels.retex | grep ^level | cut -c1-27
+$ retex-info kept/levels.retex | grep ^level | cut -c1-27
 > level 1/3      160 x 4 pixe
 % # The picture of ARGUMENT… is the one that was kept by NAME: same NAME ARGUMENT…
 % same() {
@@ -68,7 +31,7 @@ $ retex-info v2/levels.retex | grep ^level | cut -c1-27
 % lit='--light Lamp=2*2700K --light Sun=0.5 --finish Floor=polished'
 
 # The pictures that were kept; of lamps with joints as they are laid now, finer than in the stream's samples.
-% cd v2
+% cd kept
 $ same lamps-laid lamps.exr $both $lit
 > lamps-laid
 $ for f in lamps.retex denoised.exr; do same $f $f $both $lit; done

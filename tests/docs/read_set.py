@@ -237,7 +237,9 @@ def check_refusals():
     content = open(file_of("one target"), "rb").read()
     for name, old, new, message in (
             ("a damaged manifest", b'"role":"indep"', b'"role":"indeq"', "read_set.py: the manifest is damaged"),
-            ("another version", b'{"retex":2,', b'{"retex":9,', "read_set.py: unknown version: 9"),
+            ("another version", b'{"retex":1,', b'{"retex":9,', "read_set.py: unknown version: 9"),
+            ("a set from before the release", b'"parameters":', b'"parametres":',
+             "read_set.py: unknown version: before the release"),
             ("no set", b"retex\0string", b"retey\0string", "read_set.py: bad.exr is no set")):
         assert content.count(old) >= 1
         with open("bad.exr", "wb") as file:

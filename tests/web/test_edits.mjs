@@ -63,11 +63,11 @@ test("a picture without a scale lies as the tools lay it", () => {
 
 test("light and tints are statements too", async () => {
   const state = { textures: Object.assign(Object.create(null), { Floor: { source: "a.jpg", scale: [2, 3], tint: "#fda" } }), light: { exposure: 0.5, warmth: -1 }, lamps: Object.create(null), finishes: Object.create(null) };
-  same(parseEdit("warmth=-1;Floor.tint=#fda&Floor=a.jpg;exposure=.5;Floor.scale=2,3"), state);
+  same(parseEdit("warmth=-1;Floor.tint=#fda&Floor=a.jpg;picture:exposure=.5;Floor.scale=2,3"), state);
   same(editText(state), "Floor=a.jpg;Floor.scale=2,3;Floor.tint=#fda;picture:exposure=0.5;warmth=-1");
   same(parseEdit("exposure=a.jpg;exposure.scale=2").textures.exposure, { source: "a.jpg", scale: [2, 2] });
-  same(parseEdit("picture:view=filmic;picture:white-balance=4e3;picture:auto-exposure=YES;exposure=-0").light, { view: "filmic", whiteBalance: 4000, autoExposure: true, exposure: 0 });
-  for (const text of ["exposure=1;exposure=2", "exposure=1;picture:exposure=1", "Floor=a;Floor.tint=rde"]) await fails(() => parseEdit(text), /twice|tint/, text);
+  same(parseEdit("picture:view=filmic;picture:white-balance=4e3;picture:auto-exposure=YES;picture:exposure=-0").light, { view: "filmic", whiteBalance: 4000, autoExposure: true, exposure: 0 });
+  for (const text of ["picture:exposure=1;picture:exposure=2", "warmth=1;warmth=2", "Floor=a;Floor.tint=rde"]) await fails(() => parseEdit(text), /twice|tint/, text);
   same(editText({}), "");
 });
 

@@ -101,7 +101,7 @@ test("further hits, of reduced mixtures", async () => {
 
 test("another version is told", async () => {
   for (const value of [undefined, 0, 2, "1"])
-    await fails(() => checkManifest(changed("retex_web", value)), "room.json is of another version, or no room.");
+    await fails(() => checkManifest(changed("retex_web", value)), "room.json is of another version, or no room: write the folder again.");
   for (const value of [null, 3, "room"]) await fails(() => checkManifest(value), DAMAGED);
 });
 

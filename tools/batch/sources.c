@@ -104,7 +104,7 @@ static int compare_targets(const void *a, const void *b)
     return strcmp(((const RetexTextureSpec *)a)->target, ((const RetexTextureSpec *)b)->target);
 }
 
-/* By hand, as a journal is: parts of its lines are compared as text, with those that earlier versions wrote. */
+/* By hand, as a journal is: parts of its lines are compared as text, with those that earlier runs wrote. */
 static int print_sources(FILE *file, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
                          const char *lights, RetexError *err)
 {

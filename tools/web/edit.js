@@ -157,8 +157,8 @@ export function parseEdit(text) {
       finishes[finished] = value;
       continue;
     }
-    if (key.startsWith(PICTURE) || (["exposure", "warmth"].includes(key) && isFinite(numberOf(value)))) {
-      const [name, read] = LIGHT[key === "exposure" ? PICTURE + key : key] || []; // links said exposure=STOPS once
+    if (key.startsWith(PICTURE) || (key === "warmth" && isFinite(numberOf(value)))) {
+      const [name, read] = LIGHT[key] || [];
       if (!name) throw new Error(`'${statement}': expected picture: and exposure, white-balance, auto-exposure or view.`);
       if (name in light) throw new Error(`${key} is given twice.`);
       if ((light[name] = read(value)) === undefined) throw new Error(`${key} cannot be '${value}'.`);

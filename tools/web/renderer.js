@@ -37,7 +37,7 @@ export function checkManifest(room) {
     check(c.width === Math.ceil(room.width / c.scale) && c.height === Math.ceil(room.height / c.scale));
   };
   check(room && typeof room === "object");
-  if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room.");
+  if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room: write the folder again.");
   whole(room.width, 1, 32768);
   whole(room.height, 1, 32768);
   if (room.unit !== undefined) number(room.unit, 1e-30);

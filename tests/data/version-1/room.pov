@@ -1,8 +1,11 @@
-// What the files of tests/data/version-1 were rendered from: two targets that see each other, a half-metal, glass.
+// What the files of tests/data/version-1 were rendered from: two targets that see each other, glass, two lamps.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { location <0, 1, -3.2> look_at <0, 0.8, 0> angle 50 right 1.5*x }
-light_source { <0, 1.9, -0.5>, rgb 1.4 area_light 0.6*x, 0.6*z, 2, 2 fade_distance 1 fade_power 2 }
+#declare Lamp = light_source { <0, 1.9, -0.5>, rgb 1.4 area_light 0.6*x, 0.6*z, 2, 2 fade_distance 1 fade_power 2 }
+#declare Sun = light_source { <-30, 50, -40>, rgb <0.8, 0.7, 0.5> parallel point_at 0 }
+light_source { Lamp }
+light_source { Sun }
 sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb <0.5, 0.6, 0.9>] } } }
 #declare Floor = texture { pigment { checker rgb <0.7, 0.3, 0.2>, rgb <0.2, 0.4, 0.6> scale 0.4 }
     finish { retex { metallic 0.5 roughness 0.3 } } }

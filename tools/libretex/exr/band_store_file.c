@@ -10,7 +10,7 @@
 
 #include "io/checksum.h"
 
-static const char MAGIC[8] = "retex\n\032\003"; /* the last byte is the version */
+static const char MAGIC[8] = "retex\n\032\001"; /* the last byte is the version */
 
 typedef struct Header {
     char magic[8];

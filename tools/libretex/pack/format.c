@@ -168,7 +168,7 @@ char *retex_pack_describe(const char *manifest, const RetexSet *set, const Retex
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
         retex_json_add(&parts, describe_part(set, i, &packed[i]));
-    json_t *pack = json_pack("{s:i, s:o}", "version", RETEX_PACK_VERSION, "parts", parts);
+    json_t *pack = json_pack("{s:o}", "parts", parts);
     if (promise) {
         retex_json_put(&pack, "quality", json_integer(promise->quality));
         retex_json_put(&pack, "promised", json_real(promise->promised));
@@ -189,17 +189,6 @@ char *retex_pack_describe(const char *manifest, const RetexSet *set, const Retex
 }
 
 /* --- from JSON --- */
-
-int retex_pack_version_of(const char *manifest)
-{
-    json_t *root = json_loads(manifest, 0, NULL);
-    const json_t *version = json_object_get(json_object_get(root, "pack"), "version");
-    const int value = json_is_integer(version) && json_integer_value(version) > 0 && json_integer_value(version) < 1000
-                          ? (int)json_integer_value(version)
-                          : 0;
-    json_decref(root);
-    return value;
-}
 
 static int get_positive(const json_t *value, double *out)
 {

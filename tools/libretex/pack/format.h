@@ -9,7 +9,6 @@
 #include "pack/jpeg.h"
 #include "pack/planes.h"
 
-#define RETEX_PACK_VERSION 1
 #define RETEX_PACK_MANIFEST_NAME "manifest.json"
 #define RETEX_PACK_INDEX_NAME "index"
 #define RETEX_PACK_PICTURE_NAME "picture.jpg"
@@ -87,7 +86,5 @@ int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *man
 int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest);
 /* Read which smaller sets there are. */
 int retex_pack_levels_of(RetexPackScales *levels, const char *manifest, RetexError *err);
-/* The format's version by the manifest, or 0. */
-int retex_pack_version_of(const char *manifest);
 
 #endif

@@ -179,14 +179,8 @@ static int open_pack(RetexPack *pack, RetexSet **set, RetexError *err)
         code = read_entry(pack, RETEX_PACK_MANIFEST_NAME, RETEX_PACK_MANIFEST_MAX, &manifest, &bytes, err);
     if (!code && strlen((char *)manifest) != bytes)
         code = retex_pack_damaged(err, "no text is in", RETEX_PACK_MANIFEST_NAME);
-    const int version = code ? 0 : retex_pack_version_of((char *)manifest);
-    if (version > 0 && version != RETEX_PACK_VERSION)
-        code = retex_fail(err, RETEX_EUNSUPPORTED, "the pack has version %d; this program reads version %d", version,
-                          RETEX_PACK_VERSION);
     if (!code)
         code = read_set(set, (char *)manifest, err);
-    if (!code && version == 0)
-        code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
     if (!code)
         code = retex_pack_levels_of(&pack->levels, (char *)manifest, err);
     if (!code)
@@ -317,8 +311,8 @@ int retex_set_find_level(const RetexSet *set, const RetexCut *cut, RetexCut *own
         const int same = at.width == cut->scaled_width && at.height == cut->scaled_height;
         const int whole = at.width * level.scale == cut->width && at.height * level.scale == cut->height &&
                           at.width % cut->scaled_width == 0 && at.height % cut->scaled_height == 0;
-        const int large = at.width / RETEX_PACK_LARGE >= cut->scaled_width &&
-                          at.height / RETEX_PACK_LARGE >= cut->scaled_height;
+        const int large =
+            at.width / RETEX_PACK_LARGE >= cut->scaled_width && at.height / RETEX_PACK_LARGE >= cut->scaled_height;
         if (same || whole || large)
             found = i, *own = at;
     }

@@ -322,7 +322,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
                          const RetexBandSums *sums, char **json, RetexError *err)
 {
     int finite = 1;
-    json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "crc32", "00000000", "kind",
+    json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_FORMAT_VERSION, "crc32", "00000000", "kind",
                              !samples ? "set"
                              : !set   ? "samples"
                                       : "stream",

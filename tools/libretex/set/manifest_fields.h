@@ -36,8 +36,7 @@ int retex_reading_name(Reading *reading, const char *name, const char *what, con
 int retex_reading_named(Reading *reading, const json_t *json, const char *key, const char *what,
                         const char *(*name_of)(int number), int count);
 
-/* manifest_terms.c: the list of parameters, and that of terms; of version 1, where terms are of another form. */
+/* manifest_terms.c: the list of parameters, and that of terms. */
 void retex_reading_terms(Reading *reading, const json_t *root, RetexSet *set);
-void retex_reading_terms_1(Reading *reading, const json_t *root, RetexSet *set);
 
 #endif

@@ -324,8 +324,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (!reading->status)
         read_mixtures(reading, root, set);
     if (!reading->status)
-        (json_integer_value(json_object_get(root, "retex")) == 1 ? retex_reading_terms_1
-                                                                 : retex_reading_terms)(reading, root, set);
+        retex_reading_terms(reading, root, set);
 }
 
 /* What an image beyond those of footprints' colours is of. */
@@ -411,7 +410,8 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
 }
 
-/* Checks the version before everything else: in a manifest of a later version nothing else may be relied on. */
+/* Checks the version before everything else: in a manifest of another version nothing else may be relied on. Builds from
+ * before the release counted too, and wrote a version 1 without a list of parameters, which every set of this one has. */
 static void check_version(Reading *reading, const json_t *root, RetexManifestSum sum)
 {
     const json_t *version = json_object_get(root, "retex");
@@ -419,9 +419,14 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
 
     if (!json_is_integer(version) || number < 1)
         retex_reading_fail(reading, RETEX_EFORMAT, "has no version");
-    else if (number > RETEX_SET_VERSION)
-        retex_reading_fail(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d",
-                           (long long)number, RETEX_SET_VERSION);
+    else if (number != RETEX_FORMAT_VERSION)
+        retex_reading_fail(reading, RETEX_EUNSUPPORTED,
+                           "is of version %lld; this program reads version %d: render again", (long long)number,
+                           RETEX_FORMAT_VERSION);
+    else if (json_object_get(root, "terms") && !json_object_get(root, "parameters"))
+        retex_reading_fail(reading, RETEX_EUNSUPPORTED,
+                           "has terms but no list of parameters, as before the release of version %d: render again",
+                           RETEX_FORMAT_VERSION);
     else if (sum == RETEX_MANIFEST_UNSEALED)
         retex_reading_fail(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }

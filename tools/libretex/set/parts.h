@@ -34,7 +34,7 @@ int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kep
 void retex_set_view_free(RetexSetView *view);
 
 /* Make an image a factor of a term that has all others: the first where it is smaller than the picture, else the last.
- * In this order version 1 multiplied, and packs without loss rely on how products are rounded. */
+ * */
 int retex_term_add_image(RetexTerm *term, const RetexSet *set, int part, RetexError *err);
 
 #endif

@@ -528,7 +528,7 @@ static char *describe(const Web *web, const json_t *smaller, RetexError *err)
     char id[16];
     snprintf(id, sizeof id, "%08x", set->id);
     json_t *object =
-        json_pack("{s:i,s:o,s:s,s:i,s:i,s:s,s:i,s:o,s:o,s:o,s:o}", "retex_web", RETEX_WEB_VERSION, "scene",
+        json_pack("{s:i,s:o,s:s,s:i,s:i,s:s,s:i,s:o,s:o,s:o,s:o}", "retex_web", RETEX_FORMAT_VERSION, "scene",
                   text(set->scene), "id", id, "width", set->width, "height", set->height, "filter", set->filter,
                   "finest", web->model.finest, "picture", describe_file(&web->picture), "targets",
                   describe_targets(web), "lights", describe_lights(web), "classes", describe_classes(web));

@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 2 /* of the manifest, see retex-set(5) */
+#define RETEX_FORMAT_VERSION 1 /* of sets, samples, streams, packs and pages, see retex-set(5) */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6   /* hits of one target that a path keeps apart */
 #define RETEX_MAX_HITS 12    /* hits of all targets together that a path keeps apart */

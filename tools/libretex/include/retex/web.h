@@ -11,7 +11,6 @@
 extern "C" {
 #endif
 
-#define RETEX_WEB_VERSION 1
 #define RETEX_WEB_SMALLER 4
 
 /* Begin with RETEX_WEB_INIT. */
