@@ -256,16 +256,6 @@ int retex_compact_gain_end(RetexImage *gain, const RetexImage *sum, int scale, R
     return code;
 }
 
-int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
-                            const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
-                            RetexError *err)
-{
-    int code = retex_compact_gain_begin(gain, light, scale, err);
-    if (!code)
-        code = retex_compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
-    return code ? code : retex_compact_gain_end(gain, sum, scale, err);
-}
-
 int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImage *all, int scale, int nthreads,
                         RetexError *err)
 {
