@@ -104,8 +104,6 @@ static int open_term_light(TermLight *of, const RetexCompactLight *light, const 
 static void term_light(const TermLight *of, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (of->interreflected && !retex_compact_has_interreflections(of->light, of->kind, pixel))
-        return;
     for (int i = 0; i < of->count; i++) {
         const Source *source = &of->sources[i];
         if (source->uv && !(source->uv[3 * pixel + 2] > 0))
@@ -113,6 +111,9 @@ static void term_light(const TermLight *of, size_t pixel, double rgb[3])
         for (size_t c = 0; c < 3; c++)
             rgb[c] += source->share * (double)source->radiance[3 * pixel + c];
     }
+    if (of->interreflected && (rgb[0] != 0 || rgb[1] != 0 || rgb[2] != 0) &&
+        !retex_compact_has_interreflections(of->light, of->kind, pixel))
+        rgb[0] = rgb[1] = rgb[2] = 0;
 }
 
 int retex_compact_term_light(RetexImage *image, const RetexCompactLight *light, const RetexCompactKind *kind,
