@@ -98,17 +98,6 @@ static void take_camera(Cli *cli, const CliOption *o, void *camera)
     *(const char **)camera = cli->value;
 }
 
-static void take_shard(Cli *cli, const CliOption *o, void *render)
-{
-    RenderParams *r = render;
-    int part[2];
-    numbers(cli, o, '/', 2, part);
-    r->shard = part[0], r->nshards = part[1];
-    if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
-        cli_die(cli, "--shard: expected I/N, I from 1 to N, not `%s`", cli->value);
-    r->resume = 1;
-}
-
 static void take_trace(Cli *cli, const CliOption *o, void *arguments)
 {
     Arguments *a = arguments;
@@ -241,9 +230,6 @@ static const CliOption options[] = {
     {"strict", 0, NULL, "treat unsupported features of the scene as errors", 0, CLI_CALL_OF_ALL(take_render_option)},
     {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and continue from that file if it exists", 0,
      CLI_INTO(Arguments, render.resume)},
-    {"shard", 0, "I/N", "render only every N-th band of rows, from the I-th, for --merge", 0,
-     CLI_CALL(Arguments, render, take_shard)},
-    {"merge", 0, "FILE", "join the rows of all shards of this render; repeatable", 0, CLI_LIST(Arguments, merged)},
     {"stats", 0, "FILE.json", "write times, numbers of rays and paths, and memory use; - is standard output", 0,
      CLI_INTO(Arguments, stats)},
     {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0,
@@ -358,9 +344,7 @@ static void check_live(Arguments *a)
                         : a->mattes        ? "mattes"
                         : r->noise > 0     ? "noise"
                         : r->crop[2]       ? "crop"
-                        : r->nshards       ? "shard"
                         : r->resume        ? "resume"
-                        : a->nmerged       ? "merge"
                                            : NULL;
     if (!a->live)
         return;
@@ -400,23 +384,18 @@ static void check_noise(const Arguments *a)
                         "samples per pixel");
 }
 
-/* --resume, --shard and --merge: pictures and sets in pieces of rows. */
-static void check_pieces(const Arguments *a)
+/* --resume: a picture or set in pieces of rows. */
+static void check_resume(const Arguments *a)
 {
     const RenderParams *r = &a->render;
-    const char *option = r->nshards ? "shard" : r->resume ? "resume" : a->nmerged ? "merge" : NULL;
-    if (!option)
+    if (!r->resume)
         return;
     if (answers(a) || a->variants || a->control || r->control_data)
-        cli_die(a->cli, "--%s cannot be combined with %s", option,
-                "--list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants, --control "
+        cli_die(a->cli,
+                "--resume cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants, --control "
                 "or --control-data");
-    if (a->nmerged && (r->resume || r->nshards))
-        cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
-        cli_die(a->cli, "--%s needs an output file: -o FILE", option);
-    if (r->nshards && (r->aovs || a->aov_dir || a->stats))
-        cli_die(a->cli, "--shard writes rows only: give --aov, --aov-dir and --stats with --merge");
+        cli_die(a->cli, "--resume needs an output file: -o FILE");
 }
 
 static void check_mattes(Arguments *a)
@@ -432,8 +411,6 @@ static void check_mattes(Arguments *a)
         cli_die(a->cli,
                 "--mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "
                 "--trace-pixel, --variants or --control");
-    if (a->render.nshards)
-        cli_die(a->cli, "--shard writes rows only: give --mattes with --merge");
     a->matte_ranks = a->matte_ranks ? a->matte_ranks : MATTE_RANKS;
 }
 
@@ -507,7 +484,7 @@ void parse_arguments(Arguments *a)
     check_lamps(a);
     check_finishes(a);
     check_noise(a);
-    check_pieces(a);
+    check_resume(a);
     check_mattes(a);
     if (a->aov_dir && (answers(a) || a->variants || a->control))
         cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "

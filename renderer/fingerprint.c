@@ -1,5 +1,5 @@
-/* The fingerprint of a render: a digest of all that its rows depend on. --resume and --merge accept only rows with the
- * same fingerprint. */
+/* The fingerprint of a render: a digest of all that its rows depend on. --resume accepts only rows with the same
+ * fingerprint. */
 #include <elf.h>
 #include <link.h>
 #include <stdio.h>

@@ -13,8 +13,6 @@ static void check_names(const Arguments *a)
     frames_check_name(a->cli, range, "--aov-dir", a->aov_dir, 1);
     frames_check_name(a->cli, range, "--mattes", a->mattes, 1);
     frames_check_name(a->cli, range, "--control", a->control, 0);
-    for (int k = 0; k < a->nmerged; k++)
-        frames_check_name(a->cli, range, "--merge", a->merged[k], 0);
     texture_args_check_frames(a->cli, range, "--replace", a->replacements, a->nreplacements);
 }
 
@@ -50,7 +48,7 @@ void plan_frames(Arguments *a)
 typedef struct Frame {
     Arguments arguments;
     char declares[ANIMATION_DECLARES][ANIMATION_DECLARE_SIZE];
-    char *names[LIST_MAX + 5];
+    char *names[5];
     int nnames;
 } Frame;
 
@@ -72,8 +70,6 @@ static Frame *open_frame(const Arguments *all, int frame)
     name_file(f, &a->aov_dir, frame);
     name_file(f, &a->mattes, frame);
     name_file(f, &a->control, frame);
-    for (int k = 0; k < a->nmerged; k++)
-        name_file(f, &a->merged[k], frame);
     texture_args_set_frame(a->cli, frame, a->replacements, a->nreplacements);
     animation_declares(&a->animation, frame, f->declares);
     for (int k = 0; k < ANIMATION_DECLARES; k++)
@@ -115,6 +111,6 @@ int for_each_frame(Arguments *a, int (*action)(Arguments *frame))
 int frame_is_there(const Arguments *a)
 {
     struct stat info;
-    return a->frames.step && a->render.resume && !a->render.nshards && a->output && !stat(a->output, &info) &&
+    return a->frames.step && a->render.resume && a->output && !stat(a->output, &info) &&
            S_ISREG(info.st_mode) && stat(a->checkpoint, &info) != 0;
 }

@@ -114,7 +114,7 @@ void take_ini_options(Arguments *a)
         cli->threads = ini->threads;
     if (a->list || a->tracing || a->variants)
         return;
-    a->render.resume |= ini->resume && !a->control && !a->render.control_data && !a->nmerged && !a->render.nshards;
+    a->render.resume |= ini->resume && !a->control && !a->render.control_data;
     if (cli->output || !ini->output)
         return;
     char *name = ini_output_name(ini);

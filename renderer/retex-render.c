@@ -23,10 +23,6 @@ static void announce_files(Arguments *a)
         cli_reads(a->cli, "the .ini file", a->ini.files.items[k]);
     cli_reads(a->cli, "the table", a->variants);
     cli_reads(a->cli, "the set of --control", a->control);
-    for (int k = 0; k < a->nmerged; k++) {
-        cli_input(a->cli, a->merged[k], "finished rows, as of --shard");
-        cli_reads(a->cli, "the file of --merge", a->merged[k]);
-    }
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
     cli_writes(a->cli, answers(a) ? "the answer" : "the output", output);
     cli_writes(a->cli, "--stats", a->stats);
@@ -65,13 +61,12 @@ static void name_checkpoint(Arguments *a)
     if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
         (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->control_data) {
         if (r->resume)
-            cli_die(a->cli, "--%s needs an output file, which %s is not", r->nshards ? "shard" : "resume", output);
+            cli_die(a->cli, "--resume needs an output file, which %s is not", output);
         return;
     }
     if (snprintf(a->checkpoint, sizeof a->checkpoint, "%s.partial", output) >= (int)sizeof a->checkpoint)
         cli_die(a->cli, "the output's name is too long");
     r->checkpoint = a->checkpoint, r->output = output;
-    r->merged = a->merged, r->nmerged = a->nmerged;
 }
 
 static void announce_checkpoint(const Arguments *a)
@@ -85,31 +80,23 @@ static void announce_checkpoint(const Arguments *a)
         cli_warn(a->cli, "%s is unchanged: --resume continues from it", a->checkpoint);
 }
 
-/* Render; with --shard only some rows, and then there is no set. */
 static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats *stats, RetexError *err)
 {
     if (a->render.checkpoint)
         a->render.key = render_fingerprint(a, scene);
     watchdog_let_keep(a->render.checkpoint != NULL);
-    int code = a->render.nshards ? render_shard(scene, &a->render, stats, err)
-                                 : render_scene(set, scene, &a->render, stats, err);
+    int code = render_scene(set, scene, &a->render, stats, err);
     watchdog_let_keep(0);
-    if (!code && a->render.nshards) {
-        cli_info(a->cli, "shard %d of %d: %.2f s", a->render.shard, a->render.nshards, stats->render_seconds);
-        if (a->render.resume)
-            unlink(a->checkpoint);
-    }
     return code;
 }
 
 /* 1 if the render has the data for retex-denoise, which rounding reads too, and goes through a file. Sets in OpenEXR
- * keep the data; so do shards, of which the output is not known, and what is made of them. Other packs omit it, and
- * pictures without targets are only filtered here. */
+ * keep the data. Packs omit it, and pictures without targets are only filtered here. */
 static int keeps_data(const Arguments *a, const char *output)
 {
     if (!output || !a->ntargets || a->render.plain)
         return 0;
-    return a->render.nshards || a->nmerged || output_kind(a, output) == &set_kind_exr;
+    return output_kind(a, output) == &set_kind_exr;
 }
 
 /* Before the render: check that the output can be written and holds all that is asked for. */
@@ -117,10 +104,8 @@ static void check_output(const Arguments *a, const char *output)
 {
     RetexError err;
     const SetKind *kind = output_kind(a, output);
-    if (!kind && !a->render.nshards ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
+    if (!kind ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
         cli_fail(a->cli, &err);
-    if (a->render.nshards)
-        return;
     if (!kind && a->render.aovs && !a->aov_dir)
         cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);
     if (!kind && !a->render.plain && a->ntargets)

@@ -42,8 +42,6 @@ typedef struct Arguments {
     int keep_going;                                            /* of frames */
     const char *denoise_quality; /* NULL: final */
     int denoise, no_denoise_data, full_precision;
-    const char *merged[LIST_MAX];
-    int nmerged;
     const char *ini_words[LIST_MAX]; /* .ini files and switches of POV-Ray, in their order */
     int nini_words;
     IniOptions ini; /* what they say */

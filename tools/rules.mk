@@ -10,7 +10,7 @@ CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPI
 CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) \
 	$(SAME_ANYWHERE) $(CXXFLAGS)
 # Programs do not hold the name of the folder that they are built in, so that they are the same bytes wherever that is:
-# shards of a render are merged only if they come from one program.
+# a render is resumed only by the program that began it.
 SAME_ANYWHERE = '-ffile-prefix-map=$(CURDIR)=.'
 # Hot loops (*_kernel.c) are compiled with the vectoriser. The build runs on any x86-64 or ARM: no -march here.
 KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))

@@ -378,16 +378,16 @@ static int copy_bands(const Film *film, RetexBandStore *store, RetexError *err)
     return code;
 }
 
-int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
+int film_save(Film *film, uint64_t key, const char *path, RetexError *err)
 {
     RetexBandStore *store = bands_store(film->bands), *copy = NULL;
     if (store)
-        return retex_band_store_keep(store, path, replace, err);
+        return retex_band_store_keep(store, path, err);
     int code = retex_band_store_create(&copy, film->params.width, film->params.height, key, path, err);
     if (!code)
         code = copy_bands(film, copy, err);
     if (!code)
-        code = retex_band_store_keep(copy, path, replace, err);
+        code = retex_band_store_keep(copy, path, err);
     retex_band_store_close(&copy);
     return code;
 }

@@ -37,9 +37,8 @@ int film_bands_done(const Film *film);
 int film_band_is_done(const Film *film, int band);
 /* Read the bands that the band store already has. Call it after all images have been added. */
 int film_resume(Film *film, RetexError *err);
-/* Save the finished bands in a checkpoint, from which a render with the same key continues. replace: as of
- * retex_band_store_keep. */
-int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
+/* Save the finished bands in a checkpoint, from which a render with the same key continues. */
+int film_save(Film *film, uint64_t key, const char *path, RetexError *err);
 
 /* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);

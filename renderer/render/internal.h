@@ -72,7 +72,7 @@ FirstHitWindow render_window(const Render *render);
 Render render_pass(const Render *render);
 const FilmLayout *render_layout(const RenderParams *params);
 int render_is_stopped(const Render *render);
-/* Whether a band is to be rendered: of this shard, and not done by another render. */
+/* Whether a band is to be rendered: it was not done by another render. */
 int render_is_wanted(const Render *render, int band);
 
 /* ---- tiles.c: paths over pixels ---- */

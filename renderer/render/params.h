@@ -45,9 +45,6 @@ typedef struct RenderParams {
     uint64_t key;            /* tells this render from others: of the files below those with another are refused */
     const char *checkpoint;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */
     int resume;              /* 1: they are kept there all the time, and those that are there are taken over */
-    int shard, nshards;      /* render every nshards-th band only, from number shard - 1; 0, 0 (default) = all */
-    const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
-    int nmerged;
     double light_share;      /* least share of direct-light samples that the lamps of a scene with lamps have together,
                                 each as much, 0..1; default 0.1 */
     RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */

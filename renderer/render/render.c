@@ -143,28 +143,6 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
     return code;
 }
 
-int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err)
-{
-    *stats = (RenderStats){0};
-    double started = retex_clock_seconds();
-    Render r;
-    int code = render_open(&r, scene, params, err);
-    if (!code)
-        code = render_open_guide(&r, err);
-    if (!code)
-        code = render_open_film(&r, 0, 0, err);
-    if (!code) {
-        int stopped = render_paths(&r, stats, started, err);
-        code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
-        if (!code && stopped)
-            code = checkpoint_save(r.film, &r.params, err);
-    }
-    if (!code)
-        code = film_save(r.film, r.params.key, r.params.output, 1, err);
-    render_close(&r);
-    return code;
-}
-
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err)
 {
     Render r;

@@ -14,8 +14,6 @@ double render_bytes(const Scene *scene, const RenderParams *params, int width, i
  * same to the bit for every nthreads. */
 int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
 
-/* Render one shard, and leave its bands in the file params->output. */
-int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
 
 /* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths:
  * each is to the bit what render_scene gives for that variant alone with `plain`. */

@@ -60,7 +60,7 @@ double render_bytes(const Scene *scene, const RenderParams *p, int width, int he
 
 void render_drop_files(RenderParams *p)
 {
-    p->stored = p->resume = p->nshards = p->nmerged = 0;
+    p->stored = p->resume = 0;
     p->checkpoint = NULL;
 }
 
@@ -274,7 +274,7 @@ int render_is_stopped(const Render *r)
 
 int render_is_wanted(const Render *r, int band)
 {
-    return checkpoint_is_in_shard(&r->params, band) && !r->resumed[band];
+    return !r->resumed[band];
 }
 
 /* Read the bands that earlier renders have finished. The film must have all its images by then. */
@@ -283,9 +283,7 @@ static int resume_bands(Render *r, RetexBandStore *store, RetexError *err)
     r->resumed = calloc((size_t)r->tiles_y, 1);
     if (!r->resumed)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-    int code = store ? checkpoint_merge(store, &r->params, r->w, r->h, err) : RETEX_OK;
-    if (!code && store)
-        code = film_resume(r->film, err);
+    int code = store ? film_resume(r->film, err) : RETEX_OK;
     for (int band = 0; band < r->tiles_y; band++)
         r->resumed[band] = (char)film_band_is_done(r->film, band);
     for (int band = 0; band < r->tiles_y; band++)

@@ -134,12 +134,10 @@ $ keep
 $ try '$r --variants v8 room.pov'
 ! retex-render: error: v8:18: u.jpg: the output of the table's line 18 would replace the texture
 
-# Rows kept and put together.
-$ try '$r room.pov --resume -o x.exr --stats x.exr.partial' \
-+     '$r --shard 1/1 room.pov -o room.pov' '$r --merge c.exr room.pov -o c.exr'
+# Rows kept.
+$ try '$r room.pov --resume -o x.exr --stats x.exr.partial' '$r --resume room.pov -o room.pov'
 ! retex-render: error: x.exr.partial: --stats and the file of finished rows are the same file
 ! retex-render: error: room.pov: the output would replace the scene
-! retex-render: error: c.exr: the output would replace the file of --merge
 $ cp u.jpg x.png.partial
 $ keep
 $ try '$r --replace F=x.png.partial --resume room.pov -o x.png'

@@ -145,10 +145,12 @@ $ for f in original Gloss Coated polished; do
 +     done
 + done
 
-# Finishes of a set that is resumed, or rendered in shards, are the same.
-$ for i in 1 2; do finished --shard $i/2 -o s$i.exr; done
-$ finished --merge s1.exr --merge s2.exr -o merged.exr
-$ cmp set.exr merged.exr
+# Finishes of a set that is resumed are the same.
+$ (ulimit -f 200; finished --resume --threads 1 -o resumed.exr)
+! retex-render: error: cannot write resumed.exr.partial: File too large
+= 2
+$ finished --resume -o resumed.exr
+$ cmp set.exr resumed.exr
 
 # What is refused.
 $ render --finish Floor=Glass,matt -o x.exr

@@ -77,10 +77,6 @@ $ retex-render -q --size 8x6 --spp 2 s.pov -t x=#1 --replace x=t-%d.png --frames
 $ retex-diff r-1.exr r-2.exr --fail-abs 0 >/dev/null || echo differ
 > differ
 $ retex-render -q --size 8x6 --spp 2 s.pov --frames 1-2 -o v-%d.exr --aov-dir v-%d --aov depth
-$ for k in 1 2; do retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 -o p$k-%d --shard $k/2; done
-$ retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 --merge p1-%d --merge p2-%d -o p-%d.exr
-$ retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 -o q-%d.exr
-$ cmp p-3.exr q-3.exr && cmp p-4.exr q-4.exr
 $ ls
 > a-1.exr
 > a-2.exr
@@ -98,14 +94,6 @@ $ ls
 > kept.exr
 > m-1.exr
 > m-3.exr
-> p-3.exr
-> p-4.exr
-> p1-3
-> p1-4
-> p2-3
-> p2-4
-> q-3.exr
-> q-4.exr
 > r-1.exr
 > r-1.json
 > r-2.exr
@@ -178,10 +166,6 @@ $ ls
 > d-2.png
 > d-3.png
 > d-5.png
-> p1-3
-> p1-4
-> p2-3
-> p2-4
 > r-1.json
 > r-2.json
 > s.pov

@@ -206,13 +206,10 @@ $ sed 's/  .*//; /^rest$/d' list >specs
 $ retex-render -q --size 32x24 --list-lamps $(sed 's/^/-l /' specs) stranger.pov | sed 's/^[ 0-9.]*%  //' | cmp - list
 $ retex-render -q --size 8x6 --spp 1 --lamps each stranger.pov -o x.exr
 
-# In parts, stopped and gone on with, and as frames: the same bits.
+# Stopped and gone on with, and as frames: the same bits.
 % render() { retex-render -q --size 32x24 --spp 2 -t Floor --lamps each "$@"; }
 % scene=$TESTS/../../docs/suns.pov
 $ render $scene -o whole.exr
-$ for i in 1 2; do render --shard $i/2 $scene -o part$i; done
-$ render --merge part1 --merge part2 $scene -o merged.exr
-$ cmp whole.exr merged.exr
 $ render --max-time 0.0001 --resume $scene -o again.exr 2>/dev/null
 = 2
 $ render --resume $scene -o again.exr
@@ -224,4 +221,4 @@ $ retex-diff -q p-1.exr p.exr
 = 1
 $ retex-diff -q p-2.exr p.exr
 = 1
-$ rm whole.exr merged.exr again.exr f-*.exr p*.exr part*
+$ rm whole.exr again.exr f-*.exr p*.exr

@@ -107,7 +107,7 @@ $ for options in '--orders 3 -t shell' '--orders 5 -t shell -t ball' '--layout p
 > retex-info: warning: N% of the light keeps the original textures: it has more hits than a set can keep apart
 > -t shell -t ball
 
-# In glass there are more sharp clusters, for a set of any number of threads and shards; where the floor is seen
+# In glass there are more sharp clusters, for a set of any number of threads; where the floor is seen
 # directly there are none. Fewer are asked for by X, in 3+1+X.
 % glass() { retex-render -q --size 64x48 --spp 16 -t Floor "$@" scenes/glass-caustics/glass-caustics.pov; }
 $ glass --threads 1 -o glass.exr
@@ -115,9 +115,6 @@ $ retex-info glass.exr | grep '^clusters'
 > clusters       12 sharp, 2 broad, quarters of pixels
 $ glass --threads 3 -o threads.exr
 $ cmp glass.exr threads.exr
-$ for k in 1 2; do glass --shard $k/2 -o shard$k.exr; done
-$ glass --merge shard1.exr --merge shard2.exr -o shards.exr
-$ cmp glass.exr shards.exr
 $ for c in 4+2 3+1+2; do glass --clusters $c | retex-info - | grep '^clusters'; done
 > clusters       4 sharp, 2 broad, quarters of pixels
 > clusters       5 sharp, 2 broad, quarters of pixels

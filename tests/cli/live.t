@@ -88,10 +88,13 @@ $ for c in Cam_B 1,2:3 1,2,3:4,5,6:0 1,2,3:1,2,3; do retex-render --camera $c li
 ! retex-render: error: --camera: camera `1,2,3:4,5,6:0`: expected X,Y,Z:X,Y,Z[:ANGLE], where it is, what it looks at, and an angle from 1 to 170 degrees
 ! retex-render: error: --camera: camera `1,2,3:1,2,3`: it is where it looks at
 = 2
-$ retex-render -q --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,0 live.pov --shard 1/1 -o s.rows
-$ retex-render --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,1 live.pov --merge s.rows -o x.exr
-! retex-render: error: s.rows is of another render: other options, another scene or build
+$ (ulimit -f 1; retex-render -q --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,0 live.pov --resume -o x.exr)
+! retex-render: error: cannot write x.exr.partial: File too large
 = 2
+$ retex-render --plain --spp 4 --size 35x25 --camera 1,2,-4:0,.5,1 live.pov --resume -o x.exr
+! retex-render: error: x.exr.partial is of another render: other options, another scene or build
+= 2
+$ rm x.exr.partial
 $ for o in --list-targets --noise=1 '--crop 0,0,1,1' --denoise '--aov uv' '-o x.exr'; do
 +     retex-render --live $o live.pov </dev/null
 + done

@@ -99,17 +99,13 @@ $ for n in Ground Cut; do
 > CryptoObject/Ground same
 > CryptoObject/Cut same
 
-# The same for every number of threads, in the pieces of a crop, and after shards; nothing else changes.
+# The same for every number of threads, and in the pieces of a crop; nothing else changes.
 $ for n in 1 5; do
 +     retex-render -q --threads $n --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --mattes t$n.exr -o s$n.exr
 + done
 $ cmp t1.exr t5.exr
 $ retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" -o s.exr
 $ cmp s.exr s1.exr
-$ for k in 1 2; do retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --shard $k/2 -o shard$k; done
-$ retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --merge shard1 --merge shard2 --mattes merged.exr \
-+     -o s2.exr
-$ cmp t1.exr merged.exr
 $ retex-render -q --size 40x30 --spp 4 -t Floor --crop 10,5,20,20 "$TESTS/mattes.pov" --mattes crop.exr -o s3.exr
 $ oiiotool t1.exr --cut 20x20+10+5 --fullpixels -o cut.exr
 $ oiiotool --diff crop.exr cut.exr | tail -1
@@ -201,9 +197,6 @@ $ retex-render s.pov --matte-ranks 4 -o x.exr
 = 2
 $ retex-render s.pov --mattes a.exr --matte-ranks 33 -o x.exr
 ! retex-render: error: --matte-ranks: expected 1 to 32, not `33`
-= 2
-$ retex-render s.pov --mattes a.exr --shard 1/2 -o x.exr
-! retex-render: error: --shard writes rows only: give --mattes with --merge
 = 2
 $ retex-render s.pov --mattes a.exr --list-targets
 ! retex-render: error: --mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants or --control

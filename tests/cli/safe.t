@@ -347,9 +347,6 @@ $ retex-diff --safe t.ppm t.ppm
 $ retex-diff --safe pipe.pov t.png
 ! retex-diff: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 = 2
-$ retex-render --safe -q --spp 1 --size 8x8 -t Floor --merge pipe.pov "$SCENES/cornell-box/cornell-box.pov" -o m.exr
-! retex-render: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
-= 2
 $ retex-render --safe -q --spp 1 --size 8x8 --control pipe.pov \
 +     --replace Floor=t.png "$SCENES/cornell-box/cornell-box.pov" -o m.exr
 ! retex-render: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)

@@ -37,21 +37,22 @@ $ for t in @48:66/flat:uv=model @48:66; do
 + done
 > @48:66/flat:uv=model
 > @48:66
-# Every pixel of a floor names it alike, at any size, so that shards fit together; another target does not.
+# Every pixel of a floor names it alike, at any size, so that it resumes a render; another target does not.
 $ render --spp 4 -t A=@48:66/flat room.pov -o whole.exr
-$ render --spp 4 -t A=@48:66/flat --shard 1/2 room.pov -o one
-$ render --spp 4 -t A=@30:60/flat --shard 2/2 room.pov -o two
-$ render --spp 4 -t 'A=#1/flat:1' --merge one --merge two room.pov -o merged.exr
-$ cmp whole.exr merged.exr
+$ (ulimit -f 300; render --spp 4 -t A=@48:66/flat --threads 1 --resume room.pov -o resumed.exr)
+! retex-render: error: cannot write resumed.exr.partial: File too large
+= 2
+$ render --spp 4 -t A=@48:66 --resume room.pov -o resumed.exr
+! retex-render: error: resumed.exr.partial is of another render: other options, another scene or build
+= 2
+$ render --spp 4 -t A=@30:60/flat --resume room.pov -o resumed.exr
+$ cmp whole.exr resumed.exr
 $ retex-render -q --size 48x36 --spp 1 -t A=@40:33/flat room.pov -o small.exr
 $ for s in whole small; do
 +     retex-info $s.exr | awk '/^  idents/ { i = $2 } /^  share/ { print i, int(($2 + 5) / 10) }'
 + done
 > #1/flat:1 4
 > #1/flat:1 4
-$ render --spp 4 -t A=@48:66 --merge one --merge two room.pov -o other.exr
-! retex-render: error: one is of another render: other options, another scene or build
-= 2
 # A set tells its targets with their UV: --control renders them again.
 $ render --spp 32 --control-data biased -t A=@32:44/object:uv=box crate.pov -o control.exr
 $ render --spp 32 --control control.exr --replace A=fans.jpg crate.pov -o near.exr

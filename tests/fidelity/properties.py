@@ -143,13 +143,6 @@ def lossless(scene):
     same_bits(pixels(scene.combine(pack, *edit)), pixels(scene.combine(path, *edit)))
 
 
-def sharded(scene):
-    """Shards that are merged are the whole set."""
-    shards = [scene.render(*WHOLE, "--shard", f"{k}/2") for k in (1, 2)]
-    merge = [word for shard in shards for word in ("--merge", shard)]
-    same_file(scene.render(*WHOLE, *merge), scene.render(*WHOLE))
-
-
 def cropped(scene):
     """A part of the picture, with other threads, is that of the whole."""
     x, y, width, height = 5, 3, 31, 17
@@ -221,7 +214,7 @@ def mirrored(scene):
         raise Broken(f"block {worst // 3} is off by {difference.flat[worst]:g}, its noise is {noise.flat[worst]:g}")
 
 
-PROPERTIES = [recombined, recoloured, piped, lossless, sharded, cropped, frames, summed, brighter, scaled, split, mirrored]
+PROPERTIES = [recombined, recoloured, piped, lossless, cropped, frames, summed, brighter, scaled, split, mirrored]
 
 
 def check(prop, scene):

@@ -1,7 +1,7 @@
-"""Jobs of Kubernetes without Kubernetes: cluster-jobs.py FILE.yaml OPTIONS REPLACEMENT
+"""Jobs of Kubernetes without Kubernetes: cluster-jobs.py FILE.yaml
 
-Checks what a Job needs, then runs the container's command for each index, last index first, in the current folder, with
-the file's environment and the index. OPTIONS in the commands are replaced, so that less is rendered."""
+Checks what an Indexed Job needs, then runs the container's command for each index, last index first, in the current
+folder, with the file's environment and the index."""
 
 import os
 import subprocess
@@ -9,8 +9,7 @@ import sys
 
 import yaml
 
-path, options, replacement = sys.argv[1:]
-for job in yaml.safe_load_all(open(path, encoding="utf-8")):
+for job in yaml.safe_load_all(open(sys.argv[1], encoding="utf-8")):
     spec, pod = job["spec"], job["spec"]["template"]["spec"]
     assert (job["apiVersion"], job["kind"]) == ("batch/v1", "Job"), job["kind"]
     assert pod["restartPolicy"] in ("Never", "OnFailure")
@@ -21,16 +20,10 @@ for job in yaml.safe_load_all(open(path, encoding="utf-8")):
     assert set(mounts) == volumes and container["workingDir"] in mounts.values()
     environment = {entry["name"]: entry["value"] for entry in container["env"]}
     assert all(isinstance(value, str) for value in environment.values()), "values of env must be strings"
-    indices = [None]
-    if spec.get("completionMode") == "Indexed":
-        assert int(environment["SHARDS"]) == spec["completions"] >= spec["parallelism"]
-        assert spec["backoffLimitPerIndex"] and pod["restartPolicy"] == "Never"  # which it requires
-        indices = list(reversed(range(spec["completions"])))
+    assert spec["completionMode"] == "Indexed"
+    assert int(environment["SHARDS"]) == spec["completions"] >= spec["parallelism"]
+    assert spec["backoffLimitPerIndex"] and pod["restartPolicy"] == "Never"  # which it requires
     (script,) = container["args"]
-    assert not options or options in script, script
-    for index in indices:
-        variables = dict(os.environ, **environment)
-        if index is not None:
-            variables["JOB_COMPLETION_INDEX"] = str(index)
-        command = container["command"] + [script.replace(options, replacement) if options else script]
-        subprocess.run(command, env=variables, check=True)
+    for index in reversed(range(spec["completions"])):
+        variables = dict(os.environ, **environment, JOB_COMPLETION_INDEX=str(index))
+        subprocess.run(container["command"] + [script], env=variables, check=True)

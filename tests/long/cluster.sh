@@ -1,6 +1,6 @@
 #!/bin/sh
-# Renders and catalogues in parts, by the recipes of tools/cluster: GNU parallel and Slurm for real, on this machine, and
-# the commands of the Kubernetes files. The results are the bits of one process, also after processes were killed.
+# Catalogues in parts, by the recipes of tools/cluster: GNU parallel and Slurm for real, on this machine, and the commands
+# of the Kubernetes file. The results are the bits of one process.
 # CLUSTER_TESTS='by_parallel catalogue' chooses. CLUSTER_VIEWS and CLUSTER_ROWS give the size of the catalogue that is planned, resumed and verified at the end.
 set -u
 . tests/lib/tap.sh
@@ -8,22 +8,15 @@ recipes=$here/tools/cluster
 cd "$work" || exit 2
 cp -r "$scenes/cornell-box" "$scenes/textures" .
 mv cornell-box/cornell-box.pov cornell-box/room.pov
-scene=cornell-box/room.pov
-view="-t floor --size 64x512 --spp 24" long_view="-t floor --size 64x512 --spp 400"
 
-# shellcheck disable=SC2086 # words wanted
-retex-render -q $view $scene -o one.exr
+retex-render -q -t floor --size 64x512 --spp 24 cornell-box/room.pov -o one.exr
 for number in $(seq 40); do
     echo "out/$number.png,\"rgb(0.$number,0.3,0.2)\""
 done | (echo output,floor && cat) >table.csv
 mkdir one && (cd one && retex-combine -q ../one.exr --batch ../table.csv --mkdir)
 
-# is_same FILE NAME [REFERENCE]: the file has the bits of the one that one process made.
-is_same() { result "$(cmp "$1" "${3:-one.exr}" >&2 && echo 1)" "$2"; }
 # are_same FOLDER NAME
 are_same() { result "$(diff -r "$1" one/out >&2 && echo 1)" "$2"; }
-# has_rows FILE BYTES: a checkpoint that has more than one finished band, as one takes fewer bytes.
-has_rows() { [ "$(stat -c %s "$1" 2>/dev/null || echo 0)" -gt "$2" ]; }
 
 # ---- GNU parallel ----
 
@@ -32,38 +25,6 @@ by_parallel() {
         skip "GNU parallel" "parallel is not installed"
         return
     fi
-    # shellcheck disable=SC2086
-    "$recipes/render-parallel.sh" 8 parallel.exr $scene $view
-    is_same parallel.exr "parallel: 8 shards are one render"
-
-    # Shard 3 is killed in the middle, as often as it is tried.
-    mkdir bin
-    cat >bin/retex-render <<'END'
-#!/bin/sh
-case "$*" in *'--shard 3/8'*)
-    if [ "$(cat kills 2>/dev/null | wc -l)" -lt 3 ]; then
-        "$REAL" "$@" &
-        until [ "$(stat -c %s killed.exr.shards/3.partial 2>/dev/null || echo 0)" -gt 3000 ]; do sleep .01; done
-        kill -KILL $!
-        echo >>kills
-        exit 137
-    fi ;;
-esac
-echo "$*" >>runs
-exec "$REAL" "$@"
-END
-    chmod +x bin/retex-render
-    # shellcheck disable=SC2086
-    PATH=$work/bin:$PATH REAL=$BUILD/bin/retex-render "$recipes/render-parallel.sh" 8 killed.exr $scene $view 2>/dev/null
-    status=$?
-    result "$([ $status != 0 ] && [ "$(wc -l <kills)" = 3 ] && [ ! -e killed.exr ] && echo 1)" \
-        "parallel: a shard that is killed three times ends the run"
-    result "$(has_rows killed.exr.shards/3.partial 3000 && echo 1)" "parallel: its finished rows are kept"
-    # shellcheck disable=SC2086
-    PATH=$work/bin:$PATH REAL=$BUILD/bin/retex-render "$recipes/render-parallel.sh" 8 killed.exr $scene $view
-    is_same killed.exr "parallel: run again, it is one render"
-    result "$([ "$(grep -c -e --shard runs)" = 8 ] && echo 1)" "parallel: each shard is finished once"
-
     mkdir p && (cd p && "$recipes/catalogue-parallel.sh" 5 ../one.exr ../table.csv manifest >verdict)
     are_same p/out "parallel: 5 parts are one catalogue"
     result "$([ "$(cat p/verdict)" = "40 of 40 pictures good" ] && echo 1)" "parallel: and verified"
@@ -82,13 +43,10 @@ by_kubernetes() {
     cd cornell-box || return
     retex-pack -q ../one.exr -o room.retex
     cp ../table.csv rooms.csv
-    run_jobs() { /usr/bin/python3 -B "$here/tests/long/cluster-jobs.py" "$@" >&2 && echo 1; }
-    result "$(run_jobs "$recipes/render.yaml" "-t Floor --size 1920x1080 --spp 256" "$view")" \
-        "Kubernetes: the render's jobs are sound and run"
-    result "$(run_jobs "$recipes/catalogue.yaml" '' '')" "Kubernetes: the catalogue's job is sound and runs"
+    result "$(/usr/bin/python3 -B "$here/tests/long/cluster-jobs.py" "$recipes/catalogue.yaml" >&2 && echo 1)" \
+        "Kubernetes: the catalogue's job is sound and runs"
     verdict=$(retex-combine room.retex --batch rooms.csv --manifest rooms.json --verify)
     cd ..
-    is_same cornell-box/room.exr "Kubernetes: 8 indices are one render"
     result "$([ "$verdict" = "40 of 40 pictures good" ] && echo 1)" "Kubernetes: 100 indices are one catalogue"
 }
 
@@ -155,25 +113,6 @@ END
     return 1
 }
 
-# wait_for SECONDS CONDITION
-wait_for() {
-    for _ in $(seq "$(($1 * 10))"); do
-        eval "$2" && return 0
-        sleep .1
-    done
-    return 1
-}
-
-# is_in_state JOB STATE: a job, or a task of an array.
-is_in_state() { scontrol -o show job "$1" 2>/dev/null | grep -q "JobState=$2"; }
-
-# are_completed ARRAY TASK…
-are_completed() {
-    of=$1
-    shift
-    for task; do is_in_state "${of}_$task" COMPLETED || return; done
-}
-
 by_slurm() {
     if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null || ! command -v munged >/dev/null; then
         skip "Slurm" "slurm-wlm or munge is not installed"
@@ -185,31 +124,6 @@ by_slurm() {
         result 0 "Slurm: a controller and a node start"
         return
     fi
-    # shellcheck disable=SC2086
-    set -- $("$recipes/render-slurm.sh" 8 slurm.exr $scene $view)
-    wait_for 600 '[ -e slurm.exr ]'
-    is_same slurm.exr "Slurm: an array of 8 shards and its merge are one render"
-
-    # In the middle of their rows, task 3 is requeued, as after the death of its node, and task 5 cancelled.
-    # shellcheck disable=SC2086
-    retex-render -q $long_view $scene -o long.exr
-    # shellcheck disable=SC2086
-    set -- $("$recipes/render-slurm.sh" 8 again.exr $scene $long_view)
-    array=$1
-    wait_for 600 'has_rows again.exr.shards/3.partial 400000' && scontrol requeue "${array}_3"
-    wait_for 600 'has_rows again.exr.shards/5.partial 400000' && scancel "${array}_5"
-    wait_for 600 'is_in_state "${array}_5" CANCELLED && are_completed "$array" 1 2 3 4 6 7 8'
-    result "$([ -e again.exr.shards/3 ] && [ ! -e again.exr.shards/5 ] && [ -e again.exr.shards/5.partial ] &&
-        [ ! -e again.exr ] && echo 1)" "Slurm: a task that is cancelled costs its shard only"
-    # The merge would wait for ever. The task goes on, and is followed by a new merge.
-    scancel "$2"
-    # shellcheck disable=SC2086
-    set -- "$(SHARDS=8 sbatch --parsable --array=5 "$recipes/render.sbatch" again.exr $scene $long_view)"
-    # shellcheck disable=SC2086
-    SHARDS=8 sbatch --dependency="afterok:$1" "$recipes/merge.sbatch" again.exr $scene $long_view >/dev/null
-    wait_for 600 '[ -e again.exr ]'
-    is_same again.exr "Slurm: the same bits after that" long.exr
-
     mkdir s
     (cd s && SHARDS=4 sbatch --parsable --wait --array=1-4 "$recipes/catalogue.sbatch" ../one.exr ../table.csv manifest >/dev/null)
     are_same s/out "Slurm: an array of 4 parts is one catalogue"

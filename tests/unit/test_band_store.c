@@ -264,11 +264,11 @@ static void checkpoints_have_a_size_and_a_key(void **state)
     RetexError err = {0};
 
     (void)state;
-    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, 5, path, 1, &err), &err);
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, 5, path, &err), &err);
     retex_band_store_close(&store);
     for (int k = 0; k < 4; k++)
         for (int key = 5; key < 7; key++) {
-            const int code = retex_band_store_open(&store, sizes[k][0], sizes[k][1], (uint64_t)key, path, 1, &err);
+            const int code = retex_band_store_open(&store, sizes[k][0], sizes[k][1], (uint64_t)key, path, &err);
             assert_int_equal(code == RETEX_OK, k == 0 && key == 5);
             retex_band_store_close(&store);
         }

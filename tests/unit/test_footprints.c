@@ -87,7 +87,7 @@ static void a_film_continues_from_its_checkpoint(void **state)
     Fixture f;
     for (int again = 0; again < 2; again++) {
         begin_film(&f, 1, 1, 6, 1, 1);
-        test_must(retex_band_store_open(&f.params.store, 2, 1, 7, path, 1, &err), &err);
+        test_must(retex_band_store_open(&f.params.store, 2, 1, 7, path, &err), &err);
         create_film(&f);
         test_must(film_resume(f.film, &err), &err);
         assert_int_equal(film_bands_done(f.film), again);

@@ -69,37 +69,19 @@ int retex_band_store_create(RetexBandStore **result, int width, int height, uint
     return status;
 }
 
-static int open_checkpoint(RetexBandStore **result, int width, int height, uint64_t key, const char *path,
-                           BandStoreAccess access, RetexError *err)
+int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path,
+                          RetexError *err)
 {
     RetexBandStore *store = *result = band_store_new(width, height, key);
-    const int make = access == BAND_STORE_MAKE;
 
     if (!store)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
     snprintf(store->shown, sizeof store->shown, "%s", path);
-    store->descriptor = open(path, (make ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC, 0666);
+    store->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     int status = store->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
-                                       : retex_band_store_recover(store, access, err);
+                                       : retex_band_store_recover(store, err);
     if (status)
         retex_band_store_close(result);
-    return status;
-}
-
-int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path, int make,
-                          RetexError *err)
-{
-    return open_checkpoint(result, width, height, key, path, make ? BAND_STORE_MAKE : BAND_STORE_READ, err);
-}
-
-int retex_band_store_index(char *committed, int width, int height, uint64_t key, const char *path, RetexError *err)
-{
-    RetexBandStore *store = NULL;
-    const int status = open_checkpoint(&store, width, height, key, path, BAND_STORE_INDEX, err);
-
-    if (!status)
-        memcpy(committed, store->committed, (size_t)store->nbands);
-    retex_band_store_close(&store);
     return status;
 }
 
@@ -154,22 +136,10 @@ static int link_to(const RetexBandStore *store, const char *path)
     return linkat(AT_FDCWD, descriptor, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
 }
 
-/* Renames a file, called under the lock of pending files; hidden is its temporary name or NULL. */
-static int rename_hidden(const char *hidden, const char *path)
-{
-    const int code = hidden && rename(hidden, path) != 0 ? errno : 0;
-
-    if (code)
-        unlink(hidden);
-    return code;
-}
-
-static int link_in_place(const RetexBandStore *store, const char *path, const char *hidden)
+static int link_in_place(const RetexBandStore *store, const char *path)
 {
     retex_pending_files_lock();
-    int code = link_to(store, hidden ? hidden : path);
-    if (!code)
-        code = rename_hidden(hidden, path);
+    const int code = link_to(store, path);
     retex_pending_files_unlock();
     return code;
 }
@@ -190,38 +160,32 @@ static int copy_bytes(const RetexBandStore *store, int copy)
     return close(copy) != 0 && !code ? errno : code;
 }
 
-static int copy_in_place(const RetexBandStore *store, const char *path, const char *hidden)
+static int copy_in_place(const RetexBandStore *store, const char *path)
 {
-    const char *name = hidden ? hidden : path;
     RetexPendingFile pending;
 
     retex_pending_files_lock();
-    const int copy = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int copy = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     int code = copy < 0 ? errno : 0;
     if (!code)
-        retex_pending_files_add(&pending, name);
+        retex_pending_files_add(&pending, path);
     retex_pending_files_unlock();
     if (code)
         return code;
     code = copy_bytes(store, copy);
     retex_pending_files_lock();
     if (code)
-        unlink(name);
-    else
-        code = rename_hidden(hidden, path);
+        unlink(path);
     retex_pending_files_drop(&pending);
     retex_pending_files_unlock();
     return code;
 }
 
-int retex_band_store_keep(RetexBandStore *store, const char *path, int replace, RetexError *err)
+int retex_band_store_keep(RetexBandStore *store, const char *path, RetexError *err)
 {
-    char hidden[PATH_MAX];
-
-    snprintf(hidden, sizeof hidden, "%s.tmp%08x", path, (unsigned)getpid());
-    int code = link_in_place(store, path, replace ? hidden : NULL);
+    int code = link_in_place(store, path);
     if (code && code != EEXIST)
-        code = copy_in_place(store, path, replace ? hidden : NULL);
+        code = copy_in_place(store, path);
     return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(code)) : 0;
 }
 
@@ -381,39 +345,6 @@ int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStat
 const RetexBandStats *retex_band_store_committed(const RetexBandStore *store, int band)
 {
     return store->committed[band] ? &store->stats[band] : NULL;
-}
-
-static int copy_chunk(RetexBandStore *store, const RetexBandStore *from, int number, int band, RetexError *err)
-{
-    const RetexBandStoreImage *image = from->images[number];
-    const RetexBandStoreChunk *chunk = &image->chunks[band];
-    RetexBandStoreRecord record = {.kind = chunk->pxr24 ? BAND_STORE_PXR24 : BAND_STORE_CHUNK,
-                                   .band = (uint32_t)band,
-                                   .bytes = chunk->bytes,
-                                   .nonzero = chunk->nonzero};
-    int to, status = retex_band_store_add(store, image->name, image->letters, image->type, &to, err);
-
-    if (status || (!chunk->bytes && !chunk->nonzero))
-        return status;
-    unsigned char *packed = malloc((size_t)chunk->bytes + 1);
-    if (!packed)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
-    record.image = (uint32_t)to;
-    memcpy(record.crc, chunk->crc, sizeof record.crc);
-    status = retex_band_store_read(from, chunk, packed, err);
-    if (!status)
-        status = retex_band_store_append_chunk(store, &record, packed, err);
-    free(packed);
-    return status;
-}
-
-int retex_band_store_copy_band(RetexBandStore *store, const RetexBandStore *from, int band, RetexError *err)
-{
-    int status = 0;
-
-    for (int i = 0; i < from->nimages && !status; i++)
-        status = copy_chunk(store, from, i, band, err);
-    return status ? status : retex_band_store_commit(store, band, &from->stats[band], err);
 }
 
 int retex_band_store_is_empty(const RetexBandStore *store, int image)

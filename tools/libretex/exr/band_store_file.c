@@ -231,19 +231,16 @@ static int apply_record(RetexBandStore *store, const RetexBandStoreRecord *recor
     }
 }
 
-/* Reads the bytes of a record, and compares their checksum; 0 where they are not complete. Of chunks, the index needs
- * none. */
-static int read_bytes(const RetexBandStore *store, const RetexBandStoreRecord *record, BandStoreAccess access,
-                      unsigned char *bytes, uint64_t at)
+/* Reads the bytes of a record, and compares their checksum; 0 where they are not complete. */
+static int read_bytes(const RetexBandStore *store, const RetexBandStoreRecord *record, unsigned char *bytes,
+                      uint64_t at)
 {
-    if (access == BAND_STORE_INDEX && (record->kind == BAND_STORE_CHUNK || record->kind == BAND_STORE_PXR24))
-        return 1;
     return read_at(store->descriptor, bytes, record->bytes, at) && crc_of(bytes, record->bytes) == record->bytes_crc;
 }
 
 /* Reads records up to the first that is not complete. The band store continues at the end of the last commit; *images:
  * the number of images at that point. */
-static void read_records(RetexBandStore *store, const Header *header, BandStoreAccess access, int *images)
+static void read_records(RetexBandStore *store, const Header *header, int *images)
 {
     uint32_t last = crc_of(header, sizeof *header);
     uint64_t at = sizeof *header;
@@ -260,7 +257,7 @@ static void read_records(RetexBandStore *store, const Header *header, BandStoreA
             capacity = (size_t)record.bytes + 1;
             bytes = malloc(capacity);
         }
-        if (!bytes || !read_bytes(store, &record, access, bytes, at + sizeof record) ||
+        if (!bytes || !read_bytes(store, &record, bytes, at + sizeof record) ||
             !apply_record(store, &record, bytes, at + sizeof record))
             break;
         at += sizeof record + record.bytes;
@@ -315,24 +312,23 @@ static int has_header_only(const RetexBandStore *store)
            memcmp(&header, &own, (size_t)size) == 0;
 }
 
-int retex_band_store_recover(RetexBandStore *store, BandStoreAccess access, RetexError *err)
+int retex_band_store_recover(RetexBandStore *store, RetexError *err)
 {
-    const int make = access == BAND_STORE_MAKE;
     Header header;
     int images, status;
 
-    if (flock(store->descriptor, (make ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    if (flock(store->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return retex_fail(err, RETEX_EIO, "%s is in use by another render", store->shown);
-    if (make && has_header_only(store))
+    if (has_header_only(store))
         return retex_band_store_begin(store, err);
     if (!read_at(store->descriptor, &header, sizeof header, 0))
         memset(&header, 0, sizeof header);
     status = check_header(store, &header, err);
     if (status)
         return status;
-    read_records(store, &header, access, &images);
+    read_records(store, &header, &images);
     discard_uncommitted(store, images);
-    if (make && ftruncate(store->descriptor, (off_t)store->end) != 0)
+    if (ftruncate(store->descriptor, (off_t)store->end) != 0)
         return fail_write(store, errno, err);
     return 0;
 }

@@ -71,12 +71,8 @@ int retex_band_store_write_at(int descriptor, const void *data, size_t bytes, ui
 
 /* Write the header of a new file. */
 int retex_band_store_begin(RetexBandStore *store, RetexError *err);
-/* What a checkpoint is opened for: to continue it; to read it; to read records only, without the bytes of chunks. */
-typedef enum BandStoreAccess { BAND_STORE_MAKE, BAND_STORE_READ, BAND_STORE_INDEX } BandStoreAccess;
-
-/* Read what was committed. BAND_STORE_MAKE: also write the header if the file is empty, and cut off bands that were not
- * committed. */
-int retex_band_store_recover(RetexBandStore *store, BandStoreAccess access, RetexError *err);
+/* Read what was committed. Writes the header if the file is empty, and cuts off bands that were not committed. */
+int retex_band_store_recover(RetexBandStore *store, RetexError *err);
 
 /* Fill in the checksums of a record and append it, under the lock; *offset (may be NULL) receives the position of its
  * bytes. */

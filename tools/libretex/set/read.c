@@ -54,7 +54,7 @@ static int source_describe(Source *source, RetexError *err)
     const int64_t got = retex_input_read(source->input, begin, sizeof begin, 0);
     if (got > 0 && retex_band_store_probe(begin, (size_t)got))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
-                          "retex-render goes on from them with --resume or --merge");
+                          "retex-render goes on from them with --resume");
     if (!retex_exr_probe(source->input)) {
         status = retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
         return retex_input_check(source->input, status, err);

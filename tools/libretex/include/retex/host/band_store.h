@@ -26,14 +26,10 @@ typedef struct RetexBandStats RetexBandStats; /* see band_stats.h */
  * what the images are of. */
 int retex_band_store_create(RetexBandStore **store, int width, int height, uint64_t key, const char *near,
                             RetexError *err);
-/* Open the checkpoint at path. make = 1: create it where there is none; bands that were not committed are cut off. make
- * = 0: nothing is changed, and only reading is possible. A checkpoint of another size or key, or one that is in use, is
- * refused. */
-int retex_band_store_open(RetexBandStore **store, int width, int height, uint64_t key, const char *path, int make,
+/* Open the checkpoint at path, or create it where there is none; bands that were not committed are cut off. A
+ * checkpoint of another size or key, or one that is in use, is refused. */
+int retex_band_store_open(RetexBandStore **store, int width, int height, uint64_t key, const char *path,
                           RetexError *err);
-/* Which bands the checkpoint at path has, by its index alone: committed[band] is 1 or 0. Their bytes are not read, so
- * bands that are damaged count. */
-int retex_band_store_index(char *committed, int width, int height, uint64_t key, const char *path, RetexError *err);
 /* Do not compress bands from now on, for a file that is not compressed either: faster, and larger. */
 void retex_band_store_set_plain(RetexBandStore *store);
 /* Compress bands less from now on, for what does not stay: files in pipes, and images that are computed anew before
@@ -41,9 +37,8 @@ void retex_band_store_set_plain(RetexBandStore *store);
 void retex_band_store_set_fast(RetexBandStore *store);
 void retex_band_store_close(RetexBandStore **store); /* NULL and pointers to NULL are fine */
 
-/* Give a band store without a name this one, so that it stays after the process. A file of that name is replaced where
- * replace is 1, else it is an error. */
-int retex_band_store_keep(RetexBandStore *store, const char *path, int replace, RetexError *err);
+/* Give a band store without a name this one, so that it stays after the process. A file of that name is an error. */
+int retex_band_store_keep(RetexBandStore *store, const char *path, RetexError *err);
 
 /* Add an image; *image gets its number, from 0. name and letters: as of a RetexPart; type: how samples are stored. If a
  * checkpoint has an image of that name already, *image is the number of that image. */
@@ -59,15 +54,12 @@ int retex_band_store_put(RetexBandStore *store, int image, int band, const float
 int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStats *stats, RetexError *err);
 /* The stats that a band was committed with; NULL where the band is not committed. */
 const RetexBandStats *retex_band_store_committed(const RetexBandStore *store, int band);
-/* Copy a band from another band store, and commit it. Images that only the other one has are added. */
-int retex_band_store_copy_band(RetexBandStore *store, const RetexBandStore *from, int band, RetexError *err);
 
 /* 1 if all pixels of the image that were put are 0. */
 int retex_band_store_is_empty(const RetexBandStore *store, int image);
 
-/* Read one band of an image, with samples rounded to their type: its rows, interleaved. RETEX_EFORMAT, here, in
- * retex_band_store_copy_band and where a set is written from a band store, means that the file no longer has what was
- * put into it. */
+/* Read one band of an image, with samples rounded to their type: its rows, interleaved. RETEX_EFORMAT, here
+ * and where a set is written from a band store, means that the file no longer has what was put into it. */
 int retex_band_store_load_band(const RetexBandStore *store, int image, int band, float *pixels, RetexError *err);
 
 #ifdef __cplusplus
