@@ -391,9 +391,8 @@ static void check_resume(const Arguments *a)
     if (!r->resume)
         return;
     if (answers(a) || a->variants || a->control || r->control_data)
-        cli_die(a->cli,
-                "--resume cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, --trace-pixel, --variants, --control "
-                "or --control-data");
+        cli_die(a->cli, "--resume cannot be combined with --list-targets, --list-lamps, --list-finishes, "
+                        "--list-cameras, --trace-pixel, --variants, --control or --control-data");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
         cli_die(a->cli, "--resume needs an output file: -o FILE");
 }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <retex/denoise.h>
+#include <retex/output_file.h>
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
 #include "retex-render.h"
@@ -104,7 +105,7 @@ static void check_output(const Arguments *a, const char *output)
 {
     RetexError err;
     const SetKind *kind = output_kind(a, output);
-    if (!kind ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
+    if (!kind ? retex_image_write_check(output, NULL, &err) : retex_output_check(output, &err))
         cli_fail(a->cli, &err);
     if (!kind && a->render.aovs && !a->aov_dir)
         cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);

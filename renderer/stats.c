@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <jansson.h>
+#include <retex/output_file.h>
 #include "retex-render.h"
 
 void check_stats(const Arguments *a)
@@ -10,7 +11,7 @@ void check_stats(const Arguments *a)
     RetexError err;
     if (!a->stats)
         return;
-    if (strcmp(a->stats, "-") && retex_set_write_check(a->stats, &err))
+    if (strcmp(a->stats, "-") && retex_output_check(a->stats, &err))
         cli_die(a->cli, "--stats: %s", err.message);
 }
 

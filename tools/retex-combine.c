@@ -5,6 +5,7 @@
 #endif
 #include <string.h>
 
+#include <retex/output_file.h>
 #include "combine/job.h"
 
 static void check(const Cli *cli, int code, const RetexError *err)
@@ -121,7 +122,7 @@ static void parse(Cli *cli, Job *job)
     set_picture_keys(cli, job);
     cli_writes(cli, "--save-preset", job->save_preset);
     if (job->save_preset)
-        check(cli, retex_file_write_check(job->save_preset, &err), &err);
+        check(cli, retex_output_check(job->save_preset, &err), &err);
     if (job->preset)
         texture_args_add_preset(cli, job->textures.specs, &job->textures.count, job->lights, job->preset);
     check(cli, job_develop(job, job->lights, &err), &err);

@@ -6,6 +6,7 @@
 #include <retex/clock.h>
 #include <retex/denoise.h>
 #include <retex/denoise_picture.h>
+#include <retex/output_file.h>
 #include <retex/set_file.h>
 
 #include "common/cli.h"
@@ -181,7 +182,7 @@ int main(int argc, char **argv)
         cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", request.first_of_pictures, input);
     free(request.layers);
     check_ending(&cli, output, NULL);
-    if (retex_set_write_check(output, &err))
+    if (retex_output_check(output, &err))
         cli_fail(&cli, &err);
     const double began = retex_clock_seconds();
     if (cli_open_set(&cli, &set, input, request.memory, &err))

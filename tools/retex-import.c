@@ -20,6 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <retex/output_file.h>
 #include <retex/retex.h>
 
 #include "common/beneath.h"
@@ -511,7 +512,7 @@ static int import_picture(Cli *cli, const char *path, const Request *request)
     params.access = &cli->access;
     params.note = cli_note;
     params.note_context = cli;
-    if (retex_set_write_check(output, &err) ||
+    if (retex_output_check(output, &err) ||
         retex_set_read_light_groups(&set, path, &params, cli->budget, cli->threads, &err) ||
         set_kind_exr.write(set, output, cli->threads, &err))
         cli_fail(cli, &err);

@@ -161,7 +161,7 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
         return;
     if (strcmp(output, "-") == 0)
         cli_die(cli, "--stats reads the pack again: it must be a file, -o FILE.retex");
-    if (strcmp(job->stats, "-") != 0 && retex_set_write_check(job->stats, &err))
+    if (strcmp(job->stats, "-") != 0 && retex_output_check(job->stats, &err))
         cli_die(cli, "--stats: %s", err.message);
 }
 
@@ -243,7 +243,7 @@ int main(int argc, char **argv)
     cli_writes(&cli, "the output", output);
     cli_writes(&cli, "--stats", job.stats);
     check_stats(&cli, &job, output);
-    if (retex_set_write_check(output, &err))
+    if (retex_output_check(output, &err))
         cli_fail(&cli, &err);
     int code = open_set(&cli, &job, &set, &err);
     if (code)

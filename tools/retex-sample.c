@@ -1,4 +1,5 @@
 /* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
+#include <retex/output_file.h>
 #include "common/kept_textures.h"
 #include "common/picture_kind.h"
 #include "common/set_kind.h"
@@ -52,7 +53,7 @@ static void check_files(const Cli *cli, const Job *job)
     texture_args_reads(cli, job->textures.specs, job->textures.count);
     cli_writes(cli, "the output", job->output);
     check_ending(cli, job->output);
-    if (retex_set_write_check(job->output, &err))
+    if (retex_output_check(job->output, &err))
         cli_fail(cli, &err);
 }
 

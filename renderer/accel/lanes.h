@@ -28,8 +28,5 @@ void lanes_take(LaneRays *lanes, const Ray *rays, int count);
 /* Give rays to Embree; lanes that cannot be traced are disabled. reach: Accel's. */
 void lanes_start(LaneRays *lanes, double reach, struct RTCRay16 *to, int valid[ACCEL_PACKET]);
 void lanes_refine(const LaneRays *rays, LaneTriangles *triangles);
-/* The same without vector instructions: the reference. */
-void lanes_start_plain(LaneRays *lanes, double reach, struct RTCRay16 *to, int valid[ACCEL_PACKET]);
-void lanes_refine_plain(const LaneRays *rays, LaneTriangles *triangles);
 
 #endif

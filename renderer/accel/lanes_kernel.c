@@ -68,16 +68,6 @@ RETEX_CPU_INLINE void refine_body(const LaneRays *restrict rays, LaneTriangles *
 RETEX_CPU_KERNEL(start, (LaneRays * lanes, double reach, struct RTCRay16 *to, int *valid), (lanes, reach, to, valid))
 RETEX_CPU_KERNEL(refine, (const LaneRays *rays, LaneTriangles *triangles), (rays, triangles))
 
-void lanes_start_plain(LaneRays *lanes, double reach, struct RTCRay16 *to, int valid[ACCEL_PACKET])
-{
-    start_baseline(lanes, reach, to, valid);
-}
-
-void lanes_refine_plain(const LaneRays *rays, LaneTriangles *triangles)
-{
-    refine_baseline(rays, triangles);
-}
-
 void lanes_start(LaneRays *lanes, double reach, struct RTCRay16 *to, int valid[ACCEL_PACKET])
 {
     start_by_level[retex_cpu_level()](lanes, reach, to, valid);

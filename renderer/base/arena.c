@@ -110,8 +110,3 @@ char *arena_string(Arena *arena, const char *text, size_t length)
         memcpy(out, text, length);
     return out;
 }
-
-size_t arena_used(const Arena *arena)
-{
-    return arena->used;
-}

@@ -14,6 +14,5 @@ void arena_close(Arena **arena);
 void *arena_alloc(Arena *arena, size_t bytes);                    /* zeroed, 16-aligned; NULL at the limit */
 char *arena_string(Arena *arena, const char *text, size_t length); /* with a final NUL */
 void *arena_copy(Arena *arena, const void *data, size_t bytes);
-size_t arena_used(const Arena *arena);
 
 #endif

@@ -394,9 +394,9 @@ int film_save(Film *film, uint64_t key, const char *path, RetexError *err)
 
 /* ---- images of others ---- */
 
-int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err)
+Bands *film_images(const Film *film)
 {
-    return bands_add(film->bands, name, letters, type, image, err);
+    return film->bands;
 }
 
 float *film_image_pixel(FilmPixel *p, int image, int x, int y)
@@ -522,11 +522,6 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
         retex_set_prune(set, empty);
     }
     return code;
-}
-
-int film_move_image(Film *film, int image, RetexSet *set, RetexError *err)
-{
-    return bands_move_part(film->bands, image, set, NULL, err);
 }
 
 void film_move_store(Film *film, RetexSet *set)

@@ -2,6 +2,7 @@
 #ifndef RENDERER_FILM_FILM_H
 #define RENDERER_FILM_FILM_H
 
+#include "film/bands.h"
 #include "film/params.h"
 #include "film/target_tree.h"
 #include "scene/scene.h"
@@ -40,11 +41,10 @@ int film_resume(Film *film, RetexError *err);
 /* Save the finished bands in a checkpoint, from which a render with the same key continues. */
 int film_save(Film *film, uint64_t key, const char *path, RetexError *err);
 
-/* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */
-int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);
+/* Images beside those of the layout are added to these, filled for the current tile, and become parts of a set after
+ * film_finish. */
+Bands *film_images(const Film *film);
 float *film_image_pixel(FilmPixel *pixel, int image, int x, int y);
-/* Make such an image a part of the set. Call it after film_finish. */
-int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
 
 /* Add the parts, terms and footprints of the film to a set, without empty images. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);

@@ -1,5 +1,7 @@
 /* See job.h. */
 #include "job/job.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 int job_target_is_empty(const Scene *scene, int t)
 {
@@ -15,7 +17,7 @@ int job_target_is_empty(const Scene *scene, int t)
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
                    const JobNames *names, RetexError *err)
 {
-    int code = sdl_parse_file(scene, path, sdl, err);
+    int code = sdl_read(scene, path, sdl, &scene_builder, err);
     if (!code)
         code = job_resolve_targets(*scene, render, names->targets, names->ntargets, err);
     if (!code)

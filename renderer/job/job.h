@@ -4,7 +4,7 @@
 #define RENDERER_JOB_JOB_H
 
 #include "render/render.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/options.h"
 
 /* Set an option of retex-render by name: spp, noise, size, unit, seed, max-depth, crop, filter, layout, clusters,
  * orders, aov (repeated calls add AOVs); and plain, strict-paper, caustics-guide, ambient, no-ambient, strict, with the

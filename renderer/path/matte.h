@@ -48,9 +48,6 @@ typedef struct MatteBounces {
 
 void matte_lights(MatteLights *lights, const MattePacket *packet);
 void matte_bounces(MatteBounces *bounces, const MattePacket *packet);
-/* The same without vector instructions: the reference. */
-void matte_lights_plain(MatteLights *lights, const MattePacket *packet);
-void matte_bounces_plain(MatteBounces *bounces, const MattePacket *packet);
 
 static inline void matte_set(MatteVectors *to, int lane, Vec3 v)
 {

@@ -70,16 +70,6 @@ RETEX_CPU_INLINE void bounces_body(MatteBounces *restrict to, const MattePacket 
 RETEX_CPU_KERNEL(lights, (MatteLights * to, const MattePacket *p), (to, p))
 RETEX_CPU_KERNEL(bounces, (MatteBounces * to, const MattePacket *p), (to, p))
 
-void matte_lights_plain(MatteLights *to, const MattePacket *p)
-{
-    lights_baseline(to, p);
-}
-
-void matte_bounces_plain(MatteBounces *to, const MattePacket *p)
-{
-    bounces_baseline(to, p);
-}
-
 void matte_lights(MatteLights *to, const MattePacket *p)
 {
     lights_by_level[retex_cpu_level()](to, p);

@@ -5,7 +5,6 @@
 
 #include "path/sampler.h"
 
-#define VERTEX_NUMBERS (2 * DIMENSIONS_PER_VERTEX)
 #define VERTEX_LANES 16
 
 /* In [0, 1); u of the pairs, then v; by lane. */
@@ -17,8 +16,5 @@ typedef struct VertexSamples {
 /* Vertex 0 is the first hit. By lane: the sampler's key, and the sample in its pixel. */
 void vertex_samples(const uint32_t key[VERTEX_LANES], const uint32_t sample[VERTEX_LANES], unsigned vertex,
                     VertexSamples *samples);
-/* The same without vector instructions: the reference. */
-void vertex_samples_plain(const uint32_t key[VERTEX_LANES], const uint32_t sample[VERTEX_LANES], unsigned vertex,
-                          VertexSamples *samples);
 
 #endif

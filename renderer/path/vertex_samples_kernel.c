@@ -32,12 +32,6 @@ static uint32_t first_dimension(unsigned vertex)
     return DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX;
 }
 
-void vertex_samples_plain(const uint32_t key[VERTEX_LANES], const uint32_t sample[VERTEX_LANES], unsigned vertex,
-                          VertexSamples *samples)
-{
-    numbers_baseline(key, sample, first_dimension(vertex), samples);
-}
-
 void vertex_samples(const uint32_t key[VERTEX_LANES], const uint32_t sample[VERTEX_LANES], unsigned vertex,
                     VertexSamples *samples)
 {

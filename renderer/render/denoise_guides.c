@@ -284,11 +284,11 @@ int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *wi
     *g = (DenoiseGuides){.window = *window, .split = split, .samples = samples};
     const RetexFeatureInfo *info;
     for (int k = 0; !code && (info = retex_feature_info(k)); k++)
-        code = film_add_image(film, info->name, info->letters, info->type, &g->guides[k], err);
+        code = bands_add(film_images(film), info->name, info->letters, info->type, &g->guides[k], err);
     for (int t = 0; t < window->scene->ntargets && split && !code; t++) {
         char name[RETEX_NAME_MAX];
         retex_cover_part_name(name, window->scene->targets[t].name);
-        code = film_add_image(film, name, "R", RETEX_HALF, &g->covers[t], err);
+        code = bands_add(film_images(film), name, "R", RETEX_HALF, &g->covers[t], err);
     }
     return code;
 }
@@ -297,8 +297,8 @@ int denoise_guides_finish(const DenoiseGuides *g, Film *film, RetexSet *set, Ret
 {
     int code = RETEX_OK;
     for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++)
-        code = film_move_image(film, g->guides[k], set, err);
+        code = bands_move_part(film_images(film), g->guides[k], set, NULL, err);
     for (int t = 0; t < g->window.scene->ntargets && g->split && !code; t++)
-        code = film_move_image(film, g->covers[t], set, err);
+        code = bands_move_part(film_images(film), g->covers[t], set, NULL, err);
     return code;
 }

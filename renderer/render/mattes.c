@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/output_file.h>
 #include <retex/host/flat_exr.h>
 #include <retex/parallel.h>
 #include <retex/set_file.h>
@@ -324,7 +325,7 @@ int mattes_check(const Scene *scene, const char *path, RetexError *err)
     Mattes m = {.window.scene = scene, .ranks = 1, .ntargets = scene->ntargets};
     int code = list_channels(&m, err);
     if (!code)
-        code = retex_set_write_check(path, err);
+        code = retex_output_check(path, err);
     close_mattes(&m);
     return code;
 }

@@ -276,11 +276,12 @@ static void statement(Sdl *sdl)
             statements[i].parse(sdl);
             return;
         }
+    const Inherited world = {.to_world = transform_identity()};
     const int has_name = sdl_peek(sdl)->kind == TOKEN_IDENT;
     const Object *object = accept_object(sdl);
     if (!object)
         sdl_expected(sdl, "an object, a light, a camera or a directive");
-    place_object(sdl, object);
+    place_object(sdl, object, &world);
     if (!has_name)
         object_done(sdl, object);
 }

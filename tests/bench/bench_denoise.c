@@ -6,7 +6,8 @@
 #include "bench.h"
 #include "render/render.h"
 #include "lib_denoise_kernel.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 typedef struct Kernels {
     Room *room;
@@ -114,7 +115,7 @@ static void bench_set(const char *scenes, const char *name, int spp)
     RetexError err = {0};
     char text[96], path[512];
     snprintf(path, sizeof path, "%s/%s/%s.pov", scenes, name, name);
-    test_must(sdl_parse_file(&w.scene, path, NULL, &err), &err);
+    test_must(sdl_read(&w.scene, path, NULL, &scene_builder, &err), &err);
     test_must(scene_resolve_targets(w.scene, targets, 1, &err), &err);
     w.params.width = 128, w.params.height = 96, w.params.spp = spp;
     w.params.nthreads = w.params.denoise_data = 1;

@@ -10,7 +10,8 @@
 #include "bench.h"
 #include "render/render.h"
 #include "lib_test.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 enum { SPP = 16, REFERENCE_SPP = 16 };
 
@@ -27,7 +28,7 @@ static Scene *parse(const char *path, const char *const *targets, int ntargets)
 {
     Scene *scene;
     RetexError err = {0};
-    test_must(sdl_parse_file(&scene, path, NULL, &err), &err);
+    test_must(sdl_read(&scene, path, NULL, &scene_builder, &err), &err);
     if (ntargets)
         test_must(scene_resolve_targets(scene, targets, ntargets, &err), &err);
     return scene;

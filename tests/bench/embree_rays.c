@@ -16,7 +16,8 @@
 #include <embree3/rtcore.h>
 #endif
 #include "lib_test.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 enum { SIDE = 200, SAMPLES = 4, BOUNCES = 9, THREADS = 2, BLOCK = 1024, SCENES = 2 };
 #define KIND_SECONDS 0.5 /* each kind of rays is traced at least so long */
@@ -293,7 +294,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: embree_rays SCENE.pov\n");
         return 2;
     }
-    test_must(sdl_parse_file(&scene, argv[1], NULL, &err), &err);
+    test_must(sdl_read(&scene, argv[1], NULL, &scene_builder, &err), &err);
     collect(&w, scene);
     w.device = rtcNewDevice("threads=2");
     if (!w.device || !w.nlamps) {

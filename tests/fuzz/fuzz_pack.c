@@ -12,6 +12,7 @@
 #include <zip.h>
 #include <zlib.h>
 
+#include "lib_pack_read.h"
 #include "lib_fuzz.h"
 #include "lib_test.h"
 #include "set/manifest.h"
@@ -269,7 +270,7 @@ static int run(const unsigned char *bytes, size_t size)
     RetexImage picture = {0};
     int is_list = size && (bytes[0] == 'E' || bytes[0] == 'F');
     unsigned char *zip = is_list ? make_zip(bytes, size, &size) : NULL;
-    int code = retex_pack_read(zip ? zip : bytes, size, &set, 1, NULL);
+    int code = pack_read(zip ? zip : bytes, size, &set, 1, NULL);
     fuzz_must(!code == (set != NULL), "a set and a failure exclude each other");
     if (set)
         retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);

@@ -6,7 +6,8 @@
 
 #include "render/render.h"
 #include "lib_fuzz.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 static void message(void *context, int level, const char *text)
 {
@@ -49,7 +50,7 @@ static int run(const unsigned char *bytes, size_t size)
     options.max_memory = (size_t)256 << 20;
     options.message = message;
     options.message_context = &messages;
-    int code = sdl_parse_file(&scene, "fuzz.pov", &options, NULL);
+    int code = sdl_read(&scene, "fuzz.pov", &options, &scene_builder, NULL);
     fuzz_must(!code == (scene != NULL), "a scene and a failure exclude each other");
     if (scene)
         render(scene);

@@ -38,7 +38,7 @@ RetexSet *unpack(const unsigned char *data, size_t bytes)
 {
     RetexSet *set = NULL;
     RetexError err = {0};
-    test_must(retex_pack_read(data, bytes, &set, 2, &err), &err);
+    test_must(pack_read(data, bytes, &set, 2, &err), &err);
     return set;
 }
 

@@ -2,6 +2,7 @@
 #ifndef LIB_PACK_H
 #define LIB_PACK_H
 
+#include "lib_pack_read.h"
 #include "lib_test.h"
 
 /* Pack a set into memory. */

@@ -9,7 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 /* Parsed, or the test fails. */
 static inline Scene *test_scene(const char *text)
@@ -21,7 +22,7 @@ static inline Scene *test_scene(const char *text)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
     close(file);
-    if (sdl_parse_file(&scene, path, NULL, &err))
+    if (sdl_read(&scene, path, NULL, &scene_builder, &err))
         fail_msg("%d:%d: %s", err.line, err.column, err.message);
     unlink(path);
     return scene;

@@ -31,7 +31,7 @@ int parse_with(Scene **scene, const char *text, SdlOptions *options, RetexError 
     close(file);
     messages[0] = 0;
     options->message = collect;
-    int code = sdl_parse_file(scene, path, options, err);
+    int code = sdl_read(scene, path, options, &scene_builder, err);
     unlink(path);
     return code;
 }

@@ -4,7 +4,8 @@
 
 #include "lib_test.h"
 #include "scene/scene.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 extern char messages[8192]; /* of the last scene that was parsed, one per line */
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-#include "accel/lanes.h"
+#include "lib_plain.h"
 #include "shape/shape.h"
 
 static uint64_t seed = 1;

@@ -18,7 +18,8 @@
 #include "accel/accel.h"
 #include "base/machine.h"
 #include "job/job.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 #include "io/pending_files.h"
 
 static void test_stop(void **state)
@@ -235,11 +236,11 @@ static void test_scene_is_charged(void **state)
     assert_int_equal(retex_budget_create(&budget, &err), 0);
     options.budget = budget;
     retex_budget_set_memory(budget, 1 << 20);
-    assert_int_equal(sdl_parse_file(&scene, path, &options, &err), RETEX_ELIMIT);
+    assert_int_equal(sdl_read(&scene, path, &options, &scene_builder, &err), RETEX_ELIMIT);
     assert_non_null(strstr(err.message, "--max-memory"));
     assert_int_equal(retex_budget_left(budget), 1 << 20);
     retex_budget_set_memory(budget, 1 << 28);
-    test_must(sdl_parse_file(&scene, path, &options, &err), &err);
+    test_must(sdl_read(&scene, path, &options, &scene_builder, &err), &err);
     const uint64_t after_scene = retex_budget_left(budget);
     assert_true(after_scene < 1 << 28);
     test_must(accel_create_within(&accel, scene, 2, budget, &err), &err);

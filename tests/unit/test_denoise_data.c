@@ -16,7 +16,8 @@
 #include "film/footprints/footprints.h"
 #include "film/paper/paper.h"
 #include "render/render.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 #include "set/signals.h"
 
 static Scene *read_scene(const char *text, const char *declare, const char *const *targets, int ntargets)
@@ -28,7 +29,7 @@ static Scene *read_scene(const char *text, const char *declare, const char *cons
     int file = mkstemps(path, 4);
     assert_true(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text) && !close(file));
     options.declares = &declare, options.ndeclares = declare != NULL;
-    test_must(sdl_parse_file(&scene, path, &options, &err), &err);
+    test_must(sdl_read(&scene, path, &options, &scene_builder, &err), &err);
     unlink(path);
     test_must(scene_resolve_targets(scene, targets, ntargets, &err), &err);
     return scene;

@@ -10,7 +10,8 @@
 #include <cmocka.h>
 #include "base/noise.h"
 #include "function/function.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 static char said[65536];
 
@@ -35,7 +36,7 @@ static int read_scene(const char *text, long max_steps, RetexError *err)
     if (max_steps)
         options.max_steps = max_steps;
     said[0] = 0;
-    const int code = sdl_parse_file(&scene, path, &options, err);
+    const int code = sdl_read(&scene, path, &options, &scene_builder, err);
     scene_close(&scene);
     unlink(path);
     return code;

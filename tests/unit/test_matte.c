@@ -6,7 +6,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
-#include "path/matte.h"
+#include "lib_plain.h"
 #include "shade/bsdf.h"
 
 static double uniform(void)

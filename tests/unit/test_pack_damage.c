@@ -17,10 +17,10 @@ static void assert_refused(const void *data, size_t bytes)
 {
     RetexSet *set = NULL;
     RetexError err = {0};
-    int code = retex_pack_read(data, bytes, &set, 1, &err);
+    int code = pack_read(data, bytes, &set, 1, &err);
     assert_true(code < 0 && err.code == code && err.message[0]);
     assert_null(set);
-    assert_true(retex_pack_check(data, bytes, 0, NULL) < 0);
+    assert_true(pack_check(data, bytes, 0, NULL) < 0);
 }
 
 static int sets_equal(const RetexSet *a, const RetexSet *b)
@@ -45,7 +45,7 @@ static void flip_bytes(unsigned char *data, size_t bytes, size_t all, size_t ste
         unsigned char kept = data[i];
         data[i] ^= (unsigned char)(1 + i % 255);
         RetexError err = {0};
-        int code = retex_pack_read(data, bytes, &back, 1, &err);
+        int code = pack_read(data, bytes, &back, 1, &err);
         if (code == 0) { /* a date or an attribute of the zip: then the set is the same to the bit */
             assert_true(sets_equal(whole, back));
             unseen++;
@@ -133,7 +133,7 @@ static void refuse_change_of(RetexSet *set, const char *add, const char *find, c
     unsigned char *data = pack(set, NULL, &bytes, 0);
     unsigned char *changed = changed_pack(data, bytes, add, find, put, &changed_bytes);
     assert_refused(changed, changed_bytes);
-    retex_pack_read(changed, changed_bytes, &back, 1, &err);
+    pack_read(changed, changed_bytes, &back, 1, &err);
     assert_non_null(strstr(err.message, message));
     free(changed);
     free(data);

@@ -9,7 +9,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "pattern/pattern.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 enum { MOST_POINTS = 64, LINE = 512 };
 
@@ -53,7 +54,7 @@ static void check_case(const Case *c)
     fclose(file);
     options.message = collect;
     said[0] = 0;
-    if (sdl_parse_file(&scene, path, &options, &err))
+    if (sdl_read(&scene, path, &options, &scene_builder, &err))
         fail_msg("%s: column %d: %s", c->name, err.column, err.message);
     scene_close(&scene);
     unlink(path);

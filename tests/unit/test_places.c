@@ -8,7 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include <retex/host/uv_stats.h>
-#include "film/footprints/places.h"
+#include "lib_plain.h"
 
 static double uniform(void)
 {

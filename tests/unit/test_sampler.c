@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "path/vertex_samples.h"
+#include "lib_plain.h"
 
 static void pairs_are_nets(void **state)
 {

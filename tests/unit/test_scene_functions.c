@@ -9,7 +9,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "scene/scene.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 static char messages[16384];
 
@@ -39,7 +40,7 @@ static int run(const char *text, SdlOptions *options, RetexError *err)
     messages[0] = 0;
     options->message = collect;
     Scene *scene = NULL;
-    int code = sdl_parse_file(&scene, path, options, err);
+    int code = sdl_read(&scene, path, options, &scene_builder, err);
     scene_close(&scene);
     unlink(path);
     return code;

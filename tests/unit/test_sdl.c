@@ -10,7 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 #include <cmocka.h>
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 
 static char folder[64];
 
@@ -50,7 +51,7 @@ static int parse(const char *name, const char *text, SdlOptions options, Output 
     snprintf(path, sizeof path, "%s/%s", folder, name);
     options.message = message;
     options.message_context = output;
-    int code = sdl_parse_file(&scene, path, &options, err);
+    int code = sdl_read(&scene, path, &options, &scene_builder, err);
     assert_int_equal(code, err->code);
     if (code)
         assert_null(scene);
@@ -341,7 +342,7 @@ static void test_options(void **state)
     options.strict = 1;
     assert_int_equal(parse("a.pov", used, options, &output, &err), RETEX_EUNSUPPORTED);
     Scene *scene = (Scene *)1;
-    assert_int_equal(sdl_parse_file(&scene, "/nowhere/scene.pov", NULL, &err), RETEX_EIO);
+    assert_int_equal(sdl_read(&scene, "/nowhere/scene.pov", NULL, &scene_builder, &err), RETEX_EIO);
     assert_null(scene);
 }
 

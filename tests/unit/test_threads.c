@@ -1,4 +1,5 @@
 /* nthreads: no operation runs on more threads than it is told, and each uses them where there is enough work. */
+#include "lib_pack_read.h"
 #include "lib_denoise.h"
 #include "lib_folder.h"
 #include "lib_scene_text.h"
@@ -189,14 +190,14 @@ static int write_pack(Room *room, int nthreads, RetexError *err)
 static int read_pack(Room *room, int nthreads, RetexError *err)
 {
     RetexSet *set = NULL;
-    int code = retex_pack_read(room->pack, room->pack_bytes, &set, nthreads, err);
+    int code = pack_read(room->pack, room->pack_bytes, &set, nthreads, err);
     retex_set_close(&set);
     return code;
 }
 
 static int check_pack(Room *room, int nthreads, RetexError *err)
 {
-    return retex_pack_check(room->pack, room->pack_bytes, nthreads, err);
+    return pack_check(room->pack, room->pack_bytes, nthreads, err);
 }
 
 static int compare_pack(Room *room, int nthreads, RetexError *err)
@@ -315,8 +316,8 @@ static const struct {
     {"retex_set_checksum", sum_set},
     {"retex_set_compact", compact_set},
     {"retex_pack_write", write_pack},
-    {"retex_pack_read", read_pack},
-    {"retex_pack_check", check_pack},
+    {"retex_set_load of a pack", read_pack},
+    {"retex_set_check of a pack", check_pack},
     {"retex_pack_loss", compare_pack},
     {"retex_sample", sample},
     {"retex_sample_textures", sample_textures},

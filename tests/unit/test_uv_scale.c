@@ -8,7 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 #include "render/render.h"
-#include "sdl/sdl.h"
+#include "sdl/lang/parser.h"
+#include "sdl/statements.h"
 #include "set/samples.h"
 
 /* A scene with targets A and B, where it declares them. */
@@ -21,7 +22,7 @@ static Scene *read_scene(const char *text, const char *const *targets, int ntarg
     assert_true(file >= 0);
     assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
     close(file);
-    int code = sdl_parse_file(&scene, path, NULL, &err);
+    int code = sdl_read(&scene, path, NULL, &scene_builder, &err);
     if (!code)
         code = scene_resolve_targets(scene, targets, ntargets, &err);
     unlink(path);

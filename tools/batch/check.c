@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <retex/output_file.h>
 #include <retex/retex.h>
 
 #include "batch/batch.h"
@@ -307,7 +308,7 @@ void batch_check(Batch *batch, const RetexWriteParams *params)
         cli_writes(batch->cli, batch->dry_run ? "--dry-run" : batch->plan ? "--plan" : "--verify", "-");
     cli_writes(batch->cli, "--report",
                batch->report); /* last, so that a report that is one of the files above is refused */
-    if (batch->report && retex_set_write_check(batch->report, &err))
+    if (batch->report && retex_output_check(batch->report, &err))
         cli_die(batch->cli, "--report: %s", err.message);
     batch_owe_report(batch);
 }

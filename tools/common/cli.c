@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <retex/output_file.h>
 #include <retex/retex.h>
 
 const CliOption cli_positional = {"", 0, NULL, NULL, 0};
@@ -561,7 +562,7 @@ void cli_answer(Cli *cli)
     cli->answer = stdout;
     if (!cli->output || strcmp(cli->output, "-") == 0)
         return;
-    if (retex_set_write_check(cli->output, &err))
+    if (retex_output_check(cli->output, &err))
         cli_fail(cli, &err);
     cli->answer = open_memstream(&cli->answer_text, &cli->answer_bytes);
     if (!cli->answer)

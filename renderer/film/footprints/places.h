@@ -24,8 +24,7 @@ static inline double places_determinant(double uu, double uv, double vv, double 
     return f * f + f * (uu + vv) + (own > 0 ? own : 0);
 }
 
-/* Find error2 in all lanes, of a texture with features of this size. _plain is the reference. */
+/* Find error2 in all lanes, of a texture with features of this size. */
 void place_pairs_errors(PlacePairs *pairs, double feature, const int periodic[2]);
-void place_pairs_errors_plain(PlacePairs *pairs, double feature, const int periodic[2]);
 
 #endif

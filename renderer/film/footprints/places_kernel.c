@@ -93,11 +93,6 @@ RETEX_CPU_INLINE void errors_body(PlacePairs *restrict pairs, double f, const in
 
 RETEX_CPU_KERNEL(errors, (PlacePairs * pairs, double f, const int *periodic), (pairs, f, periodic))
 
-void place_pairs_errors_plain(PlacePairs *pairs, double feature, const int periodic[2])
-{
-    errors_baseline(pairs, feature * feature, periodic);
-}
-
 void place_pairs_errors(PlacePairs *pairs, double feature, const int periodic[2])
 {
     errors_by_level[retex_cpu_level()](pairs, feature * feature, periodic);

@@ -126,7 +126,7 @@ static Prototype *prototype_new(Sdl *sdl, const Object *object, const CompoundKe
                               .flags = key->flags,
                               .light_group = key->light_group,
                               .prototype = prototype};
-    place_within(sdl, &contents, &within);
+    place_object(sdl, &contents, &within);
     places->inherited_texture = NULL;
     return prototype;
 }

@@ -223,7 +223,7 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
 static void place_children(Sdl *sdl, const ObjectList *list, const Inherited *around)
 {
     for (; list; list = list->next)
-        place_within(sdl, list->object, around);
+        place_object(sdl, list->object, around);
 }
 
 /* The object of looks_like is placed at its light, and casts no shadow. */
@@ -244,7 +244,7 @@ static void place_operands(Sdl *sdl, const Object *object, const Inherited *arou
     Inherited here = *around;
     for (const ObjectList *list = object->children; list; list = list->next) {
         const int before = scene->nprimitives;
-        place_within(sdl, list->object, &here);
+        place_object(sdl, list->object, &here);
         here.is_taken_off |= object->difference && list->object->kind != OBJECT_LIGHT;
         if (scene->nprimitives == before)
             continue;
@@ -303,7 +303,7 @@ unsigned flags_within(const Object *object, const Inherited *around)
     return (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
 }
 
-void place_within(Sdl *sdl, const Object *object, const Inherited *around)
+void place_object(Sdl *sdl, const Object *object, const Inherited *around)
 {
     Inherited here = *around;
     sdl_step(sdl, 1);
@@ -341,12 +341,6 @@ void place_within(Sdl *sdl, const Object *object, const Inherited *around)
     cutaway_complete(sdl, &cutaway);
     if (here.csg && !around->csg)
         add_root(sdl, here.csg, here.prototype, object->line);
-}
-
-void place_object(Sdl *sdl, const Object *object)
-{
-    const Inherited world = {.to_world = transform_identity()};
-    place_within(sdl, object, &world);
 }
 
 /* Primitives stay where they are from now on. */

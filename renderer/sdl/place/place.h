@@ -69,8 +69,7 @@ void cutaway_complete(Sdl *sdl, const Cutaway *cutaway);
 
 /* caustics.c, at the end of reading: which light sources throw caustics, by which primitives. */
 void find_caustics(Sdl *sdl);
-void place_object(Sdl *sdl, const Object *object);
-void place_within(Sdl *sdl, const Object *object, const Inherited *around);
+void place_object(Sdl *sdl, const Object *object, const Inherited *around);
 int place_instance(Sdl *sdl, const Object *object, const Inherited *around); /* 0: it is to be placed by itself */
 unsigned flags_within(const Object *object, const Inherited *around);
 const ParsedTexture *texture_placed(Sdl *sdl, const ParsedTexture *texture, const Transform *by);

@@ -67,7 +67,8 @@ static int begins_with(const char *text, const char *prefix)
     return strncmp(text, prefix, strlen(prefix)) == 0;
 }
 
-int retex_set_is_layer(const RetexSet *set, int part)
+/* Whether the part is written; the set is in memory. */
+static int is_layer(const RetexSet *set, int part)
 {
     const RetexPart *p = &set->parts[part];
     const RetexImage *image = &p->image;
@@ -145,7 +146,7 @@ static int list_channels(LayersFile *file, const RetexSet *set, RetexError *err)
     if (!file->channels)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write layers");
     for (int i = 0; i < set->nparts; i++)
-        if (retex_set_is_layer(set, i))
+        if (is_layer(set, i))
             add_layer(file, i);
     qsort(file->channels, (size_t)file->nchannels, sizeof *file->channels, compare_channels);
     return RETEX_OK;

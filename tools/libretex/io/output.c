@@ -399,8 +399,3 @@ int retex_file_write(const char *path, const void *data, size_t bytes, RetexErro
     retex_output_abandon(&output);
     return status;
 }
-
-int retex_file_write_check(const char *path, RetexError *err)
-{
-    return retex_output_check(path, err);
-}

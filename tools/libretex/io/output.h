@@ -19,10 +19,6 @@ int retex_output_open_memory(RetexOutput **output, RetexError *err);
 /* The bytes written into memory, which the caller frees with free(). Nulls *output. */
 int retex_output_take(RetexOutput **output, void **data, size_t *bytes, RetexError *err);
 
-/* Check whether path could be opened by retex_output_open, as far as that is known without creating anything: to be
- * called before long work. */
-int retex_output_check(const char *path, RetexError *err);
-
 /* Append; buffered. */
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err);
 

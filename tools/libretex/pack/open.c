@@ -410,3 +410,8 @@ int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err)
     free(exact);
     return code;
 }
+
+int retex_pack_probe(const void *data, size_t bytes)
+{
+    return bytes >= 4 && memcmp(data, "PK\3\4", 4) == 0;
+}

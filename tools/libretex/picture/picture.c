@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include <retex/output_file.h>
 #include <retex/parallel.h>
 
 #include "base/params.h"

@@ -310,8 +310,3 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
     close_writing(&w);
     return status;
 }
-
-int retex_set_write_check(const char *path, RetexError *err)
-{
-    return retex_output_check(path, err);
-}

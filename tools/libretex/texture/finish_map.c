@@ -1,7 +1,6 @@
 /* See finish_map.h. */
 #include "texture/finish_map.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -194,7 +193,7 @@ static int weigh(const RetexTexture *texture, const RetexImage *map, RetexFinish
                  const int repeats[2], RetexTexels *weights, int nthreads, RetexError *err)
 {
     *weights = (RetexTexels){repeats[0] * map->width, repeats[1] * map->height, !is_normal_map(scale), NULL};
-    if (map->width > INT_MAX / 2 || map->height > INT_MAX / 2 || retex_texels_alloc(weights))
+    if (retex_texels_alloc(weights))
         return no_memory(texture, err);
     if (is_normal_map(scale)) {
         retex_normal_map_weigh(&texture->spec, map, scale == RETEX_FINISH_BY_NORMAL_DX, weights, nthreads);

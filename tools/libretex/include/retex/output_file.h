@@ -13,8 +13,9 @@ extern "C" {
 /* Write a file of any kind as all outputs of the library are written: under a temporary name, renamed when complete; or
  * to "-", standard output. */
 int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
-/* Check whether it could, as far as that is known without writing: a folder that takes files. */
-int retex_file_write_check(const char *path, RetexError *err);
+/* Check whether a file of any kind, a set for example, could be written so, as far as that is known without creating
+ * anything: to be called before the work that makes it. */
+int retex_output_check(const char *path, RetexError *err);
 
 /* Remove all pending files: outputs under temporary names that are not complete. For a process that ends in the middle
  * of its work, from any thread; no output can be completed afterwards. */

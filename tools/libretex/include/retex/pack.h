@@ -30,12 +30,8 @@ typedef struct RetexPackParams {
  * more than the quality promises it is packed anew, finer. *bytes (may be NULL) gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
                      size_t *bytes, int nthreads /* 0 = all cores */, RetexError *err);
-/* Read a pack from memory (the whole file). retex_set_read calls it when it finds a pack. */
-int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads, RetexError *err);
 /* 1 if the bytes begin like a pack (a zip's first local header). */
 int retex_pack_probe(const void *data, size_t bytes);
-/* Compare the checksums inside a pack with its data. */
-int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err);
 
 /* What a pack's parts are for. A later version may add uses. */
 typedef enum RetexPackUse {

@@ -79,12 +79,6 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
  * and for what is 0 everywhere. Mean UV has u in R, v in G, and in B 1 where coverage is above 0. Layers of two
  * channels get a third one of zeros. */
 int retex_set_write_layers(const RetexSet *set, const char *path, int nthreads /* 0 = all cores */, RetexError *err);
-/* Whether it writes this part; the set is in memory. */
-int retex_set_is_layer(const RetexSet *set, int part);
-
-/* Check that a set, samples or a pack can be written to path, as far as that is known without writing: to be called
- * before the work that makes them. */
-int retex_set_write_check(const char *path, RetexError *err);
 
 /* One row of a part's image as retex_set_write would store it: samples of that type in the order of letters, pixel by
  * pixel, in this machine's byte order. Halves are rounded to the nearest; finite values beyond 65504 become 65504. */
