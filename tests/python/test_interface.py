@@ -6,7 +6,7 @@ import re
 
 import lib
 
-from retex import library
+from retex import interface, library
 
 HEADERS = lib.ROOT + "/tools/libretex/include"
 CC = os.environ.get("CC", "gcc")
@@ -31,7 +31,9 @@ def compiled(lines):
 
 def test_structures():
     """Sizes, and places and sizes of all members, of the structures"""
-    for structure in library.STRUCTURES:
+    structures = [kind for kind in vars(interface).values() if isinstance(kind, type(ctypes.Structure))]
+    assert len(structures) > 10
+    for structure in structures:
         name = structure.__name__
         fields = [field for field, _ in structure._fields_]
         expected = [f"{name} {ctypes.sizeof(structure)}"]
@@ -58,6 +60,13 @@ def test_constants():
         [f"{library.MAX_TARGETS} {library.STRIP}"]
 
 
+def test_written():
+    """Structures and calls are those that the headers have now"""
+    made = lib.run("/usr/bin/python3", lib.PACKAGE + "/interface.py", HEADERS)
+    with open(lib.PACKAGE + "/retex/interface.py", encoding="utf-8") as file:
+        assert made == file.read(), "run tools/python/interface.py tools/libretex/include >tools/python/retex/interface.py"
+
+
 def kind_of(text):
     """A C parameter or result as a class of ctypes, roughly: pointers are pointers."""
     text = text.strip()
@@ -77,9 +86,8 @@ def kind_in_python(kind):
 def test_calls():
     """Results and arguments of the calls"""
     text = text_of_headers()
-    declared = {name: (arguments + [library._error], ctypes.c_int) for name, arguments in library.CALLS.items()}
-    declared.update(library.PLAIN)
-    for name, (arguments, result) in declared.items():
+    assert len(interface.CALLS) > 50
+    for name, (arguments, result) in interface.CALLS.items():
         prototype = re.search(r"\n((?:const )?\w+ \**)" + name + r"\(([^;]*?)\);", text)
         assert prototype, name
         expected = [kind_of(part) for part in prototype[2].split(",")]

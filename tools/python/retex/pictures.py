@@ -8,8 +8,8 @@ from typing import Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from .library import STRIP, RetexDenoiseParams, RetexDenoisePictureParams, RetexImage, RetexReadParams
-from .library import RetexWriteParams, call, free, lib, note, pass_warnings, path_bytes, text_bytes, threads_of, warn
+from .interface import RetexDenoiseParams, RetexDenoisePictureParams, RetexImage, RetexReadParams, RetexWriteParams
+from .library import STRIP, call, free, lib, note, pass_warnings, path_bytes, text_bytes, threads_of, warn
 
 #: Rows from the top, pixels, channels; scene-linear.
 Picture = npt.NDArray[np.float32]
@@ -49,15 +49,15 @@ def image_of(array: npt.ArrayLike) -> Tuple[RetexImage, Picture]:
 
 def _write_params(quality: int, display: Optional[str], view: Optional[str], colorspace: Optional[str],
                   is_data: bool, depth: int) -> RetexWriteParams:
-    return RetexWriteParams(sizeof(RetexWriteParams), text_bytes(display), text_bytes(view), text_bytes(colorspace),
-                            quality, is_data, depth)
+    return RetexWriteParams(size=sizeof(RetexWriteParams), display=text_bytes(display), view=text_bytes(view),
+                            colorspace=text_bytes(colorspace), quality=quality, is_data=is_data, depth=depth)
 
 
 def read(path: Path, *, colorspace: Optional[str] = None, threads: int = 0) -> Picture:
     """Read a picture of any format that OpenImageIO reads: red, green, blue and alpha (not premultiplied),
     scene-linear. `colorspace` overrides what the file states about its colours."""
     image = RetexImage()
-    params = RetexReadParams(sizeof(RetexReadParams), text_bytes(colorspace), 0, None, None, 16, warn, None)
+    params = RetexReadParams(size=sizeof(RetexReadParams), colorspace=text_bytes(colorspace), pixel_bytes=16, warn=warn)
     call("retex_image_read", byref(image), path_bytes(path), byref(params), threads_of(threads))
     picture = array_of(image)
     pass_warnings()
@@ -87,7 +87,8 @@ def encode(picture: npt.ArrayLike, format: str = "png", *, quality: int = 95,  #
     try:
         for row in range(0, image.height, STRIP):
             rows = pixels[row:row + STRIP]
-            call("retex_picture_rows", handle, row, row + rows.shape[0], rows.ctypes.data)
+            call("retex_picture_rows", handle, row, row + rows.shape[0],
+                 rows.ctypes.data_as(ctypes.POINTER(ctypes.c_float)))
         call("retex_picture_take", byref(handle), byref(data), byref(size))
         return ctypes.string_at(data, size.value)
     finally:
@@ -106,12 +107,13 @@ def denoise_picture(path: Path, output: Path, *, layers: Sequence[str] = (), oth
     RetexWarning. The guides `normal`, `albedo`, `position` and `depth` are layers; by default those of well known
     names."""
     names = (ctypes.c_char_p * len(layers))(*[text_bytes(layer) for layer in layers])
-    picture = RetexDenoisePictureParams(sizeof(RetexDenoisePictureParams), names, len(layers),
-                                        None if other_half is None else path_bytes(other_half), text_bytes(variance),
-                                        text_bytes(normal), text_bytes(albedo), text_bytes(position), text_bytes(depth),
-                                        None, note, None)
-    params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, 1, 0, None, None, None, None, 0,
-                                text_bytes(denoiser), text_bytes(quality))
+    picture = RetexDenoisePictureParams(
+        size=sizeof(RetexDenoisePictureParams), layers=names, nlayers=len(layers),
+        other_half=None if other_half is None else path_bytes(other_half), variance=text_bytes(variance),
+        normal=text_bytes(normal), albedo=text_bytes(albedo), position=text_bytes(position), depth=text_bytes(depth),
+        note=note)
+    params = RetexDenoiseParams(size=sizeof(RetexDenoiseParams), strength=strength, radius=radius, footprints=1,
+                                denoiser=text_bytes(denoiser), quality=text_bytes(quality))
     call("retex_denoise_picture", path_bytes(path), path_bytes(output), byref(picture), byref(params),
          threads_of(threads))
     pass_warnings()

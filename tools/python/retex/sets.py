@@ -13,9 +13,9 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optio
 
 import numpy as np
 
-from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexCut, RetexDenoiseParams, RetexImage
-from .library import RetexPackParams, RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes
-from .library import shrink_rows, text_bytes, threads_of, warn
+from .interface import RetexCombineParams, RetexCut, RetexDenoiseParams, RetexImage, RetexPackParams, RetexTextureSpec
+from .library import MAX_TARGETS, Code, Error, call, free, keep_rows, lib, pass_warnings, path_bytes, shrink_rows
+from .library import text_bytes, threads_of, warn
 from .pictures import Path, Picture, array_of, image_of
 from .texture import Light, Texture, Textures, parameters_of, parse_edit
 
@@ -334,9 +334,10 @@ class Set:
             if values is not None and parameters:
                 raise ValueError("parameters and lights or finishes exclude each other")
             cut = self._cut(crop, size)
-            params = RetexCombineParams(sizeof(RetexCombineParams), cross, cut.y, cut.y + cut.height, cut.x,
-                                        cut.x + cut.width, values if values is not None
-                                        else self._parameters(parameters), 0, ctypes.pointer(develop))
+            params = RetexCombineParams(
+                size=sizeof(RetexCombineParams), cross=cross, y0=cut.y, y1=cut.y + cut.height, x0=cut.x,
+                x1=cut.x + cut.width, parameters=values if values is not None else self._parameters(parameters),
+                develop=ctypes.pointer(develop))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
             arguments = pointer, samples._handle.pointer if samples else None, by_target, byref(params)
             if size:
@@ -422,8 +423,9 @@ class Set:
         """Remove the noise from the set, once, in place, as retex-denoise(1): every picture made of it is clean then.
         Error, Code.ENOTFOUND, where the set has no data for that. The denoiser is nlm, oidn, or both: these two need
         Open Image Denoise 2. The quality is final, or preview, which is faster."""
-        params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, footprints, 0, None, None, None, None,
-                                    full_precision, denoiser.encode(), quality.encode())
+        params = RetexDenoiseParams(size=sizeof(RetexDenoiseParams), strength=strength, radius=radius,
+                                    footprints=footprints, full_precision=full_precision, denoiser=denoiser.encode(),
+                                    quality=quality.encode())
         with self._exclusive() as pointer:
             call("retex_denoise", pointer, byref(params), None, threads_of(threads))
             self._read_manifest()
@@ -435,7 +437,7 @@ class Set:
 
     def pack(self, path: Path, *, quality: int = 90, lossless: bool = False, threads: int = 0) -> int:
         """Write the set as a pack, a small file, as retex-pack(1). Return its bytes."""
-        params = RetexPackParams(sizeof(RetexPackParams), quality, lossless, warn, None)
+        params = RetexPackParams(size=sizeof(RetexPackParams), quality=quality, lossless=lossless, warn=warn)
         size = ctypes.c_size_t()
         with self._exclusive() as pointer:
             call("retex_set_load", pointer, threads_of(threads))

@@ -8,7 +8,8 @@ from typing import Any, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Unio
 import numpy as np
 import numpy.typing as npt
 
-from .library import Error, Code, RetexDevelop, RetexTextureSpec, call, free, lib, path_bytes, text_bytes, threads_of, warn
+from .interface import RetexDevelop, RetexTextureSpec
+from .library import Code, Error, call, free, lib, path_bytes, text_bytes, threads_of, warn
 from .pictures import image_of
 
 #: A file's name or a colour as text; a colour, scene-linear red, green and blue; or an array of rows, texels and 1, 3 or
