@@ -12,7 +12,7 @@
 #include "base/json_write.h"
 #include "set/manifest.h"
 
-const char *const retex_pack_codec_names[RETEX_PACK_CODECS] = {"zero", "planes", "jpeg"};
+static const char *const codec_names[RETEX_PACK_CODECS] = {"zero", "planes", "jpeg"};
 
 void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part)
 {
@@ -141,7 +141,7 @@ json_t *retex_pack_describe_white(const RetexPackCurve *curve)
 
 static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart *packed)
 {
-    json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", retex_pack_codec_names[packed->codec]);
+    json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", codec_names[packed->codec]);
     if (packed->codec == RETEX_PACK_JPEG) {
         retex_json_put(&o, "white", retex_pack_describe_white(&packed->curve));
         retex_json_put(&o, "levels", json_real(packed->curve.levels));
@@ -289,11 +289,11 @@ static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *
 {
     const char *codec = json_string_value(json_object_get(o, "codec"));
     int c = 0, ok = 1;
-    while (codec && c < RETEX_PACK_CODECS && strcmp(codec, retex_pack_codec_names[c]) != 0)
+    while (codec && c < RETEX_PACK_CODECS && strcmp(codec, codec_names[c]) != 0)
         c++;
     if (codec && c == RETEX_PACK_CODECS)
         return retex_fail(err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s and %s",
-                          codec, retex_pack_codec_names[0], retex_pack_codec_names[1], retex_pack_codec_names[2]);
+                          codec, codec_names[0], codec_names[1], codec_names[2]);
     packed->codec = codec ? (RetexPackCodec)c : RETEX_PACK_ZERO;
     ok = codec != NULL && packed->channels <= RETEX_PACK_CHANNELS_MAX;
     if (ok && packed->codec == RETEX_PACK_JPEG) {

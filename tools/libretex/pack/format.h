@@ -27,8 +27,6 @@ typedef enum RetexPackCodec {
     RETEX_PACK_CODECS
 } RetexPackCodec;
 
-extern const char *const retex_pack_codec_names[RETEX_PACK_CODECS];
-
 /* Codec, quantizer and slices of a part. */
 typedef struct RetexPackPart {
     RetexPackCodec codec;

@@ -410,8 +410,9 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
 }
 
-/* Checks the version before everything else: in a manifest of another version nothing else may be relied on. Builds from
- * before the release counted too, and wrote a version 1 without a list of parameters, which every set of this one has. */
+/* Checks the version before everything else: in a manifest of another version nothing else may be relied on. Builds
+ * from before the release counted too, and wrote a version 1 without a list of parameters, which every set of this one
+ * has. */
 static void check_version(Reading *reading, const json_t *root, RetexManifestSum sum)
 {
     const json_t *version = json_object_get(root, "retex");
