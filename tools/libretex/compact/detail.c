@@ -94,16 +94,25 @@ static int mix_colors(RetexImage *colors, const RetexSet *set, const RetexMixtur
     return code;
 }
 
+/* Add colours times `value` and, for each hit, ALBEDO. count: of numbers. */
+static void add_colors(float *restrict to, const float *restrict colors, size_t count, int hits, const double value[3])
+{
+    float weight[3];
+    for (int c = 0; c < 3; c++)
+        weight[c] = (float)(power(ALBEDO, hits) * value[c]);
+    for (size_t i = 0; i < count; i += 3)
+        for (size_t c = 0; c < 3; c++)
+            to[i + c] += weight[c] * colors[i + c];
+}
+
 /* Add the light of a term on textures of one grey. */
 static void add_grey(RetexImage *picture, const RetexSet *set, const RetexTerm *term)
 {
-    const float *radiance = set->parts[term->radiance].image.pixels;
-    const double albedo = power(ALBEDO, retex_term_hits(term));
     double value[3] = {1, 1, 1};
     if (retex_term_is_light(term))
         retex_compact_rendered(set, term, value);
-    for (size_t i = 0; i < retex_image_index(picture, 0, picture->height); i++)
-        picture->pixels[i] += (float)(albedo * value[i % 3]) * radiance[i];
+    add_colors(picture->pixels, set->parts[term->radiance].image.pixels, retex_image_index(picture, 0, picture->height),
+               retex_term_hits(term), value);
 }
 
 /* The grey picture by one lamp with a value of 1, or by all light as rendered (-1); light of a lamp is no light of
@@ -131,8 +140,9 @@ static void add_colored(float *picture, const RetexImage *mixtures, float *produ
     for (int k = 0; k < term->nfactors; k++)
         for (int c = 0; c < 3 && term->factors[k].kind == RETEX_FACTOR_FOOTPRINT; c++)
             value[c] *= (double)color_of(set->footprints[term->factors[k].index].target, c);
-    for (size_t i = 0; i < count; i++)
-        product[i] = (float)value[i % 3] * radiance[i];
+    for (size_t i = 0; i < count; i += 3)
+        for (size_t c = 0; c < 3; c++)
+            product[i + c] = (float)value[c] * radiance[i + c];
     for (int k = 0; k < term->nfactors; k++)
         for (size_t i = 0; i < count && term->factors[k].kind == RETEX_FACTOR_MIXTURE; i++)
             product[i] *= mixtures[term->factors[k].index].pixels[i];
@@ -318,8 +328,9 @@ static int add_gains(Strip *s, int number, int lamps, RetexError *err)
             break;
         const int hits = gain < 0 ? 1 : retex_term_hits(&kind->gains[RETEX_COMPACT_APART][gain].term);
         add_errors(s, hits, of->alone ? one : of->value);
-        for (size_t i = 0; i < retex_image_index(&s->own, 0, s->own.height) && hits > MIXED_HITS; i++)
-            s->errors[0].pixels[i] += (float)(power(ALBEDO, hits) * of->value[i % 3]) * s->own.pixels[i];
+        if (hits > MIXED_HITS)
+            add_colors(s->errors[0].pixels, s->own.pixels, retex_image_index(&s->own, 0, s->own.height), hits,
+                       of->value);
         if (of->alone)
             take_errors(&s->pass->details->lamps[number * retex_compact_most_places(light) + place], s,
                         &s->slopes[of->factors[0].index]);
