@@ -31,8 +31,8 @@ static const float *at(const RetexSet *set, int part, int x, int y)
     return im->pixels + retex_image_index(im, x, y);
 }
 
-/* The variance of a signal's noise: so much for its light that the mean root of the noise's size is right in the band of
- * 16 rows, where normal numbers of variance 1 have a mean root of 0.82. lit: the set whose light it is of. */
+/* The variance of a signal's noise: so much for its light that the mean root of its size is right in the band of 16
+ * rows, where normal numbers of variance 1 have a mean root of 0.82. lit: the set whose light it is of. */
 static double noise2(const RetexSet *set, const RetexSet *lit, const RetexSignal *signal, int x, int y)
 {
     double roots = 0, lights = 0, here = 0;
