@@ -223,7 +223,7 @@ bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-normals fidelity-edits fidelity-rooms fidelity-models fidelity-blender
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-normals fidelity-edits fidelity-rooms fidelity-models fidelity-first fidelity-blender
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
@@ -238,6 +238,8 @@ fidelity-maps: all
 	@BUILD=$(BUILD) tests/fidelity/table/finish-maps.sh
 fidelity-normals: all
 	@BUILD=$(BUILD) tests/fidelity/table/normal-maps.sh
+fidelity-first: all
+	@BUILD=$(BUILD) tests/fidelity/table/first-pictures.sh
 fidelity-models: all
 	@BUILD=$(BUILD) tests/fidelity/table/models.sh
 fidelity-edits: all
