@@ -240,9 +240,7 @@ static void lamps_are_rounded_by_their_own_noise(void **state)
         for (int k = 0; k < VALUES && strncmp(set->parts[i].name, "noise_", 6) == 0; k++) {
             const int own = strncmp(set->parts[i].name, "noise_lamp_Lamp_", 16) == 0;
             const int part = own ? -1 : retex_set_find_part(plain, set->parts[i].name);
-            set->parts[i].image.pixels[k] = own        ? (k < 3 ? 1e-3f : 1e-6f)
-                                            : part < 0 ? 0.01f
-                                                       : plain->parts[part].image.pixels[k];
+            set->parts[i].image.pixels[k] = own ? 1e-6f : part < 0 ? 0.01f : plain->parts[part].image.pixels[k];
         }
     RetexSet *sets[] = {plain, set};
     float *before = malloc(sizeof *before * VALUES * (size_t)set->nterms);
@@ -269,8 +267,7 @@ static void lamps_are_rounded_by_their_own_noise(void **state)
                 if (set->terms[t].role == RETEX_ROLE_LAMP &&
                     set->terms[t].factors[set->terms[t].nfactors - 1].index == 0)
                     white[c] += (double)before[(size_t)t * VALUES + (size_t)(i - i % 3 + c)];
-        const double step =
-            fmax(fmax(white[0], fmax(white[1], white[2])) / 8192, 0.15 * 3e-6) * 1.001; /* noise follows light */
+        const double step = fmax(fmax(white[0], fmax(white[1], white[2])) / 8192, 0.15 * 1e-6) * 1.001;
         for (int t = 0; t < set->nterms; t++)
             if (set->terms[t].role == RETEX_ROLE_LAMP && set->terms[t].factors[set->terms[t].nfactors - 1].index == 0) {
                 const double a = (double)before[(size_t)t * VALUES + (size_t)i];

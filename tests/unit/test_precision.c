@@ -31,33 +31,31 @@ static const float *at(const RetexSet *set, int part, int x, int y)
     return im->pixels + retex_image_index(im, x, y);
 }
 
-/* The variance of a signal's noise: so much for its light that the mean root of its size is right in the band of 16
- * rows, where normal numbers of variance 1 have a mean root of 0.82. lit: the set whose light it is of. */
-static double noise2(const RetexSet *set, const RetexSet *lit, const RetexSignal *signal, int x, int y)
+/* The variance of a signal's noise: the mean root of its size in the 5x5 pixels around one, those of its band of 16
+ * rows only, over that of normal numbers of variance 1. */
+static double noise2(const RetexSet *set, int part, int x, int y)
 {
-    double roots = 0, lights = 0, here = 0;
-    for (int v = y / 16 * 16; v < HEIGHT && v < y / 16 * 16 + 16; v++)
-        for (int u = 0; u < WIDTH; u++) {
-            const float *n = at(set, signal->noise, u, v);
-            double light = 0, size = 0;
+    double sum = 0, own = 0;
+    int count = 0;
+    for (int v = y - 2; v <= y + 2; v++)
+        for (int u = x - 2; u <= x + 2; u++) {
+            if (u < 0 || u >= WIDTH || v < 0 || v >= HEIGHT || v / 16 != y / 16)
+                continue;
+            const float *n = at(set, part, u, v);
             for (int c = 0; c < 3; c++) {
-                for (int m = 0; m < signal->nmembers; m++)
-                    light += (double)(signal->members[m].weight *
-                                      fabsf(at(lit, lit->terms[signal->members[m].term].radiance, u, v)[c])) /
-                             3;
-                size += fabs((double)n[c]), roots += sqrt(fabs((double)n[c])) / 3;
+                own += u == x && v == y ? fabs((double)n[c]) : 0;
+                sum += sqrt(fabs((double)n[c]));
+                count++;
             }
-            lights += size > 0 ? pow(light, 0.25) : 0;
-            here = u == x && v == y && size > 0 ? light : here;
         }
-    return lights > 0 ? here * pow(roots / lights * sqrt(M_PI) / (pow(2, 0.25) * tgamma(0.75)), 4) : 0;
+    return own > 0 ? pow(sum / count * sqrt(M_PI) / (pow(2, 0.25) * tgamma(0.75)), 4) : 0;
 }
 
 static double noise_of_all(const RetexSet *set, const RetexSignals *signals, int x, int y)
 {
     double sum = 0;
     for (int s = 0; s < signals->count; s++)
-        sum += noise2(set, set, &signals->of[s], x, y);
+        sum += noise2(set, signals->of[s].noise, x, y);
     return sqrt(sum);
 }
 
@@ -97,7 +95,7 @@ static void expect_light(const RetexSet *is, const RetexSet *was, const RetexSet
     for (int s = 0; s < signals.count; s++)
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const int x = i % WIDTH, y = i / WIDTH;
-            const double sigma = sqrt(noise2(noise, was, &signals.of[s], x, y));
+            const double sigma = sqrt(noise2(noise, signals.of[s].noise, x, y));
             const double step = sigma > 0 ? fmax(fraction * sigma, 1.001 * white(was, x, y) / 8192) : 0;
             for (int c = 0; c < 3; c++) {
                 double a = 0, b = 0, size = 0;
@@ -236,7 +234,7 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
             double noise = noise_of_all(was, &signals, x, y);
             for (int s = 0; s < signals.count; s++)
                 if (signals.of[s].target == f->target && signals.of[s].kind == f->kind)
-                    noise = sqrt(noise2(was, was, &signals.of[s], x, y));
+                    noise = sqrt(noise2(was, signals.of[s].noise, x, y));
             expect_footprint(set, was, k, noise, x, y);
             for (int c = 0; c < 3 && at(was, f->uv, x, y)[2] > 0; c++)
                 expect_near((double)at(set, f->albedo, x, y)[c], (double)at(was, f->albedo, x, y)[c],

@@ -17,6 +17,8 @@
 #include "set/parts.h"
 #include "set/samples.h"
 
+enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
+
 /* A footprint, where it has all its parts and they are not reduced. */
 typedef struct Footprint {
     int uv, spread, albedo; /* parts; uv -1: it is left as it is */
@@ -41,6 +43,7 @@ struct RetexPrecision {
 /* Memory of one job. */
 typedef struct Scratch {
     float *noise;       /* variances by signal, then of all light together: of a band's pixels */
+    float *row;         /* sums over columns */
     double *deviations; /* of the pixel's noise, in the same order */
     double *light;      /* by footprint: light that it multiplies in the pixel */
     double *mixed;      /* by mixture */
@@ -173,27 +176,33 @@ static double square_of_root(double root)
     return ratio * ratio * ratio * ratio;
 }
 
-/* The variance of one signal's noise: the same share of its light in all pixels of a band, as of paths that are equally
- * bright. It is that of the mean root, for which few bright pixels do not count. 0 where the pixel itself has no
- * noise. */
-static void share_noise(const RetexPrecision *p, float *out, const RetexSet *rows, int number, int y0, int lines)
+/* The variance of one signal's noise, from roots averaged over the neighbourhood within the band: few bright pixels do
+ * not count for those around them. 0 where the pixel itself has no noise. */
+static void average_noise(float *out, float *sums, const RetexSet *rows, int part, int y0, int lines, double scale)
 {
-    const RetexSignal *signal = &p->signals.of[number];
-    const size_t first = (size_t)y0 * (size_t)rows->width, count = (size_t)lines * (size_t)rows->width;
-    double noise = 0, light = 0;
-    for (size_t i = 0; i < count; i++) {
-        const float *n = retex_pixel_at(rows, signal->noise, first + i);
-        double own = 0;
-        for (int m = 0; m < signal->nmembers; m++)
-            own += (double)signal->members[m].weight *
-                   retex_mean_size(retex_pixel_at(rows, signal->members[m].part, first + i));
-        out[i] = n[0] == 0 && n[1] == 0 && n[2] == 0 ? 0 : (float)own;
-        noise += (double)(sqrtf(fabsf(n[0])) + sqrtf(fabsf(n[1])) + sqrtf(fabsf(n[2]))) / 3;
-        light += sqrt(sqrt((double)out[i]));
+    const int width = rows->width;
+    const float *noise = rows->parts[part].image.pixels + retex_image_index(&rows->parts[part].image, 0, y0);
+    for (int y = 0; y < lines; y++, out += width) {
+        const int top = y > NEIGHBOURS ? y - NEIGHBOURS : 0;
+        const int end = y + NEIGHBOURS + 1 < lines ? y + NEIGHBOURS + 1 : lines;
+        memset(sums, 0, sizeof *sums * (size_t)width);
+        for (int row = top; row < end; row++)
+            for (int x = 0; x < width; x++) {
+                const float *n = noise + 3 * ((size_t)row * (size_t)width + (size_t)x);
+                sums[x] += sqrtf(fabsf(n[0])) + sqrtf(fabsf(n[1])) + sqrtf(fabsf(n[2]));
+            }
+        for (int x = 0; x < width; x++) {
+            const int left = x > NEIGHBOURS ? x - NEIGHBOURS : 0;
+            const int right = x + NEIGHBOURS + 1 < width ? x + NEIGHBOURS + 1 : width;
+            const float *own = noise + 3 * ((size_t)y * (size_t)width + (size_t)x);
+            double sum = 0;
+            for (int k = left; k < right; k++)
+                sum += (double)sums[k];
+            out[x] = own[0] == 0 && own[1] == 0 && own[2] == 0
+                         ? 0
+                         : (float)(scale * scale * square_of_root(sum / (3.0 * (right - left) * (end - top))));
+        }
     }
-    const double share = light > 0 ? p->remaining * p->remaining * square_of_root(noise / light) : 0;
-    for (size_t i = 0; i < count; i++)
-        out[i] *= (float)share;
 }
 
 static void find_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int y0, int lines)
@@ -203,7 +212,7 @@ static void find_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows
     memset(all, 0, sizeof *all * pixels);
     for (int k = 0; k < p->signals.count && p->has_noise; k++) {
         float *one = s->noise + (size_t)k * pixels;
-        share_noise(p, one, rows, k, y0, lines);
+        average_noise(one, s->row, rows, p->signals.of[k].noise, y0, lines, p->remaining);
         for (size_t i = 0; i < (size_t)rows->width * (size_t)lines && p->signals.of[k].lamp < 0; i++)
             all[i] += one[i];
     }
@@ -448,6 +457,7 @@ static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *row
 static void close_scratch(Scratch *s)
 {
     free(s->noise);
+    free(s->row);
     free(s->deviations);
     free(s->light);
     free(s->mixed);
@@ -459,13 +469,14 @@ static void close_scratch(Scratch *s)
 static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *rows, RetexError *err)
 {
     *s = (Scratch){.noise = malloc(sizeof *s->noise * band_pixels(rows) * (size_t)(p->signals.count + 1)),
+                   .row = malloc(sizeof *s->row * (size_t)rows->width),
                    .deviations = malloc(sizeof *s->deviations * (size_t)(p->signals.count + 1)),
                    .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
                    .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
                    .lit = malloc(sizeof *s->lit * (size_t)(retex_edited_light_count(p->edited) + 1)),
                    .whites = malloc(sizeof *s->whites * (size_t)rows->width * (size_t)(rows->nparameters + 1)),
                    .colors = malloc(sizeof *s->colors * 3 * (size_t)rows->width)};
-    if (s->noise && s->deviations && s->light && s->mixed && s->lit && s->whites && s->colors)
+    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->lit && s->whites && s->colors)
         return RETEX_OK;
     close_scratch(s);
     return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");

@@ -1,9 +1,8 @@
 /* How precisely the numbers of a set are stored: each to a fraction of what it is known to. Private to libretex.
  *
  * What a number is known to follows from the noise of the light that it multiplies. The set's noise parts tell that
- * (see <retex/host/denoise_data.h>): in a band of rows all of a signal's light has the same share of it. Where a signal
- * has no noise in the pixel its light is left as it is. Where the set has no noise parts, every number gets its finest
- * step.
+ * (see <retex/host/denoise_data.h>), averaged over a neighbourhood of the pixel within a band. Where a signal has no
+ * noise in the pixel its light is left as it is. Where the set has no noise parts, every number gets its finest step.
  */
 #ifndef RETEX_SET_PRECISION_H
 #define RETEX_SET_PRECISION_H
