@@ -1,5 +1,6 @@
 /* See precision.h. Footprints are rounded by the light that they multiply: an error of a footprint changes the picture
- * by at most so much. precision_light.h has light. */
+ * by at most so much. Errors of albedos are carried on from one number of a pixel to the next larger one, so that their
+ * sum is rounded only once. precision_light.h has light. */
 #include "precision/precision.h"
 
 #include <math.h>
@@ -47,6 +48,7 @@ typedef struct Scratch {
     double *deviations; /* of the pixel's noise, in the same order */
     double *light;      /* by footprint: light that it multiplies in the pixel */
     double *mixed;      /* by mixture */
+    int *order;         /* of footprints */
     int *lit;           /* terms of light that are not black in the pixel */
     double *whites;     /* of a row, by parameter, then column: the largest channel of all light of the lamp */
     double *colors;     /* of a row */
@@ -394,16 +396,7 @@ static void round_place(const RetexPrecision *p, const RetexSet *rows, const Foo
     uv[2] = rounded(RETEX_PRECISION_COVERAGE, (double)uv[2], (double)uv[2], relative);
 }
 
-static void round_footprint(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at,
-                            const double deviation[2], double relative)
-{
-    float *albedo = retex_pixel_at(rows, f->albedo, at);
-    round_place(p, rows, f, at, deviation, relative);
-    for (int c = 0; c < 3; c++)
-        albedo[c] = rounded(RETEX_PRECISION_ALBEDO, fmax((double)albedo[c], 0), 1, relative);
-}
-
-static void round_footprints(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at)
+static void round_places(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at)
 {
     double deviation[RETEX_SET_FOOTPRINTS_MAX][2];
     for (int i = 0; i < p->nfootprints; i++) {
@@ -415,7 +408,40 @@ static void round_footprints(const RetexPrecision *p, const Scratch *s, const Re
     for (int i = 0; i < p->nfootprints; i++) {
         const Footprint *f = &p->footprints[i];
         if (f->uv >= 0 && retex_pixel_at(rows, f->uv, at)[2] > 0)
-            round_footprint(p, rows, f, at, deviation[i], relative_noise(noise_of(p, s, f->signal), s->light[i]));
+            round_place(p, rows, f, at, deviation[i], relative_noise(noise_of(p, s, f->signal), s->light[i]));
+    }
+}
+
+/* The footprints of one kind that have light in the pixel, those with little first. */
+static int sort_footprints(const RetexPrecision *p, Scratch *s, int first)
+{
+    int count = 0;
+    for (int i = first; i < p->nfootprints; i++) {
+        int k = count;
+        if (p->footprints[i].first != first || p->footprints[i].uv < 0 || !(s->light[i] > 0))
+            continue;
+        for (; k > 0 && s->light[s->order[k - 1]] > s->light[i]; k--)
+            s->order[k] = s->order[k - 1];
+        s->order[k] = i;
+        count++;
+    }
+    return count;
+}
+
+static void round_albedos(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int first, size_t at)
+{
+    const double noise = noise_of(p, s, p->footprints[first].signal);
+    const int count = sort_footprints(p, s, first);
+    double carried[3] = {0, 0, 0};
+    for (int k = 0; k < count; k++) {
+        const double light = s->light[s->order[k]], unit = retex_round_unit(retex_precision_step(
+                                                        RETEX_PRECISION_ALBEDO, 1, relative_noise(noise, light)));
+        float *albedo = retex_pixel_at(rows, p->footprints[s->order[k]].albedo, at);
+        for (int c = 0; c < 3; c++) {
+            const double value = fmax((double)albedo[c] + carried[c] / light, 0), kept = retex_round_by(value, unit);
+            carried[c] += ((double)albedo[c] - kept) * light;
+            albedo[c] = (float)kept;
+        }
     }
 }
 
@@ -447,7 +473,10 @@ static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *row
     take_noise(p, s, rows, pixel);
     retex_pixel_light_keep(&light);
     gather_light(p, s, rows, at);
-    round_footprints(p, s, rows, at);
+    round_places(p, s, rows, at);
+    for (int i = 0; i < p->nfootprints; i++)
+        if (p->footprints[i].first == i)
+            round_albedos(p, s, rows, i, at);
     round_weights(p, s, rows, at);
     retex_pixel_light_round(&light);
 }
@@ -461,6 +490,7 @@ static void close_scratch(Scratch *s)
     free(s->deviations);
     free(s->light);
     free(s->mixed);
+    free(s->order);
     free(s->lit);
     free(s->whites);
     free(s->colors);
@@ -473,10 +503,11 @@ static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *row
                    .deviations = malloc(sizeof *s->deviations * (size_t)(p->signals.count + 1)),
                    .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
                    .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
+                   .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1)),
                    .lit = malloc(sizeof *s->lit * (size_t)(retex_edited_light_count(p->edited) + 1)),
                    .whites = malloc(sizeof *s->whites * (size_t)rows->width * (size_t)(rows->nparameters + 1)),
                    .colors = malloc(sizeof *s->colors * 3 * (size_t)rows->width)};
-    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->lit && s->whites && s->colors)
+    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order && s->lit && s->whites && s->colors)
         return RETEX_OK;
     close_scratch(s);
     return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
