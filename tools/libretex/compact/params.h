@@ -6,11 +6,12 @@
 
 /* Begin with RETEX_COMPACT_INIT. */
 typedef struct RetexCompactParams {
-    double psnr; /* dB, 20 to 120: what pictures of the compact set should have about against the set's own, by what the
-                    set tells of itself, and not counting noise that averages away; default 55 */
+    double psnr; /* dB, 20 to 120: what pictures of the compact set should have at least against the set's own, measured
+                    as retex_metrics does it, but in part of the set and with waves for textures, and not counting noise
+                    that averages away; default 55 */
     int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
     int interreflection; /* later ones, */
-    int gain;            /* and gains. 0, the default: as many times as psnr allows by a table. */
+    int gain;            /* and gains. 0, the default: as many times as psnr allows. */
     double noise; /* 0 to 1: how freely noise of the set is taken away, by which pictures of the compact set differ from
                      the set's more than by psnr, but not from the truth; default 1 */
     double lamps; /* dB: the same of pictures by one lamp, looked at as brightly as the whole; default 0: some less than
