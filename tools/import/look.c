@@ -174,6 +174,16 @@ static double added_to(const Meter *seen)
     return fmax(1, fmin((seen->is_noisy ? 4 : 1) * meter_mean(seen) / 0.2, 1e5));
 }
 
+/* Look again with a light of that strength; without that look the scene has it as it was. */
+static int see_lit(const LookParams *params, const char *declared, double strength, double was, Meter *seen,
+                   RetexError *err)
+{
+    int code = put_number(params, declared, LOOK_ADDED_FORMAT, strength, err);
+    if (!code && (code = see(params, seen, err)))
+        put_number(params, declared, LOOK_ADDED_FORMAT, was, NULL);
+    return code;
+}
+
 /* The sky first, which lights more than one room; where it is not enough or not there, a lamp. */
 static int add_light(Look *look, const LookParams *params, Meter *seen, RetexError *err)
 {
@@ -184,10 +194,8 @@ static int add_light(Look *look, const LookParams *params, Meter *seen, RetexErr
     for (int i = 0; i < 2 && !code && !is_enough(seen, params); i++) {
         if (number_after(params, lights[i].declared, "", NAN) != 0)
             continue;
-        code = put_number(params, lights[i].declared, LOOK_ADDED_FORMAT, added_to(seen), err);
+        code = see_lit(params, lights[i].declared, added_to(seen), 0, seen, err);
         look->added = lights[i].name;
-        if (!code)
-            code = see(params, seen, err);
     }
     return code;
 }
@@ -207,9 +215,7 @@ static int balance_windows(Look *look, const LookParams *params, Meter *seen, Re
         return RETEX_OK;
     for (int i = 0; i < 2 && !code && (off < 0.7 || off > 1.3); i++) {
         more *= i ? off : 1;
-        code = put_number(params, lamp, LOOK_ADDED_FORMAT, was + more, err);
-        if (!code)
-            code = see(params, seen, err);
+        code = see_lit(params, lamp, was + more, was, seen, err);
         off = fmin(fmax((times - 1) * mean / fmax(meter_mean(seen) - mean, 1e-9), 0.2), 5);
     }
     look->added = LOOK_ADDED_LAMP, look->is_balanced = 1;
