@@ -27,7 +27,6 @@ typedef enum RetexPackCodec {
     RETEX_PACK_CODECS
 } RetexPackCodec;
 
-
 /* Codec, quantizer and slices of a part. */
 typedef struct RetexPackPart {
     RetexPackCodec codec;
