@@ -4,19 +4,15 @@ A pixel is lit if its luminance, of the picture as it is shown, lies between 5 a
 tenths of its pixels are. Whether a picture is good is what a person found who looked at it, in the list: it shows a
 floor and a wall, nothing stands in front, it is level, and it is lit."""
 import csv
-import hashlib
 import os
 import shutil
-import subprocess
 import sys
-import time
 
 import numpy as np
-import OpenImageIO as oiio
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
-from models import FREE, read, write  # pylint: disable=wrong-import-position
+from models import FREE, hash_of, read, run, write  # pylint: disable=wrong-import-position
 
 WIDTH, HEIGHT = 320, 240
 COLUMNS = 2  # pairs
@@ -25,23 +21,14 @@ SECONDS = 900  # for one program
 HALVES = (("blind", "Looked at last"), ("unseen", "Looked at before the last rules"))
 
 
-def run(*command):
-    began = time.time()
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, timeout=SECONDS)
-    except subprocess.TimeoutExpired:
-        return -1, f"not done in {SECONDS} s", time.time() - began
-    return done.returncode, done.stderr, time.time() - began
-
-
 def picture(to, programs, model, name, spp):
     """Make TO.png; what was told, seconds of the import and of all, or None in place of them."""
     shutil.rmtree(to, ignore_errors=True)
-    code, told, seconds = run(f"{programs}/retex-import", "--partial", "-o", to, model)
+    code, told, seconds = run(f"{programs}/retex-import", "--partial", "-o", to, model, timeout=SECONDS)
     if code:
         return told, None
     code, failed, rendered = run(f"{programs}/retex-render", "-q", "--size", f"{WIDTH}x{HEIGHT}", "--spp", spp,
-                                 "--denoise", f"{to}/{name}.pov", "-o", f"{to}.exr")
+                                 "--denoise", f"{to}/{name}.pov", "-o", f"{to}.exr", timeout=SECONDS)
     if not code:
         code, failed, _ = run(f"{programs}/retex-combine", "-q", f"{to}.exr", "-o", f"{to}.png")
     shutil.rmtree(to, ignore_errors=True)
@@ -119,10 +106,7 @@ def write_page(work, head, rows, spp, missing):
 
 def find_model(folder, row):
     path = f"{folder}/{row['name']}/{os.path.basename(row['path'])}"
-    if not os.path.exists(path):
-        return None
-    with open(path, "rb") as file:
-        return path if hashlib.sha256(file.read()).hexdigest() == row["sha256"] else None
+    return path if os.path.exists(path) and hash_of(path) == row["sha256"] else None
 
 
 def main(work, folder, programs, old, head, spp, *names):

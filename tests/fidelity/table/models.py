@@ -32,9 +32,13 @@ FREE = re.compile(r"CC0|CC-BY-[0-9]|CC-BY$|MIT|BSD|Apache|GPL|public domain", re
 A_SHEET = 8             # models on one picture of the page
 
 
-def run(*command):
+def run(*command, timeout=None):
+    """Status, what was told, and seconds; status -1: it was not done in time."""
     began = time.time()
-    done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, timeout=timeout)
+    except subprocess.TimeoutExpired:
+        return -1, f"not done in {timeout} s", time.time() - began
     return done.returncode, done.stderr.replace(f"{os.path.basename(command[0])}: ", ""), time.time() - began
 
 
