@@ -136,7 +136,7 @@ $ for what in byte other none; do
 > 1
 > 2
 ! retex-info: error: the pack is damaged: the checksum is wrong of 'level-3.retex'
-! retex-pack: error: d.retex: level-3.retex: the pack is damaged: the checksum is wrong of part 'gain_Floor_broad_lamp3_11'
+! retex-pack: error: d.retex: level-3.retex: the pack is damaged: the checksum is wrong of part 'dep_Left_sharp'
 ! retex-info: error: the pack is damaged: it has another set as 'level-3.retex'
 ! retex-pack: error: the pack is damaged: it has another set as 'level-3.retex'
 ! retex-info: error: d.retex: the pack is damaged: it lacks 'level-3.retex'

@@ -53,7 +53,7 @@ $ ls page/textures 2>/dev/null
 = 2
 
 # Size and samples are by the time: less of it, fewer samples, at the least size and number of them.
-$ for time in 60 1; do
+$ for time in 900 1; do
 +     try -o none --time $time plate.obj oak.jpg -t Floor=Plate --size 96x72 --spp 2 -q && rm -r none
 +     retex-try --camera 2,3,1:2,0,-2 plate.obj oak.jpg -t Floor=Plate -o none --size 64x48 --time $time 2>/dev/null |
 +         sed -n 's/.*--size=\([0-9x]*\) --spp=\([0-9]*\) --denoise.*/\1 \2/p' | awk '{ print $1, $2 < 100 ? "few" : $2 }'
