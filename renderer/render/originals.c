@@ -34,24 +34,18 @@ typedef struct Copy {
     const ImageMap *image;
 } Copy;
 
-/* A row of texels. If the texture is smaller than the image, each texel is the image's mean over the texel's area. */
+/* A row of texels. If the original is smaller than the image, each texel is the image's mean over the texel's area. */
 static void copy_row(void *context, int y, int thread)
 {
     const Copy *copy = context;
     const RetexImage *dst = copy->dst;
     const RetexTexture *texture = copy->image->texture;
-    float *p = dst->pixels + retex_image_index(dst, 0, y), rgba[4];
-    const double v = 1 - (y + 0.5) / dst->height, sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
-                 covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
+    float *p = dst->pixels + retex_image_index(dst, 0, y);
     (void)thread;
-    if (dst->width == copy->image->width && dst->height == copy->image->height) {
+    if (dst->width == copy->image->width && dst->height == copy->image->height)
         retex_texture_row(texture, y, p);
-        return;
-    }
-    for (int x = 0; x < dst->width; x++, p += 3) {
-        retex_texture_gaussian(texture, (x + 0.5) / dst->width, v, covariance, rgba);
-        memcpy(p, rgba, 3 * sizeof *p);
-    }
+    else
+        retex_texture_scaled_row(texture, dst->width, dst->height, y, p);
 }
 
 /* Each texel is a texel of the image, or the pigment at the texel's centre. */
@@ -150,10 +144,9 @@ int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *e
 
 static Rgb image_mean(const Pigment *pigment)
 {
-    static const double everywhere[3] = {1, 0, 1};
-    float rgba[4];
-    retex_texture_gaussian(pigment->image->texture, 0.5, 0.5, everywhere, rgba);
-    const Rgb mean = rgb(rgba[0], rgba[1], rgba[2]);
+    float all[3];
+    retex_texture_scaled_row(pigment->image->texture, 1, 1, 0, all);
+    const Rgb mean = rgb(all[0], all[1], all[2]);
     return pigment->is_tinted ? rgb_mul(mean, rgb(pigment->color.r, pigment->color.g, pigment->color.b)) : mean;
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "lib_filter.h"
 #include "bench.h"
 #include "retexture/combine_kernel.h"
 #include "base/half.h"
@@ -109,7 +110,7 @@ static void gaussian(void *context)
     const Filter *f = context;
     double a = f->longer * f->longer, b = f->shorter * f->shorter;
     float rgba[4];
-    retex_texture_gaussian(f->texture, 0.3, 0.7, (double[3]){0.75 * a + 0.25 * b, 0.433 * (a - b), 0.25 * a + 0.75 * b},
+    filter_gaussian(f->texture, 0.3, 0.7, (double[3]){0.75 * a + 0.25 * b, 0.433 * (a - b), 0.25 * a + 0.75 * b},
                            rgba);
     bench_sink = rgba[0];
 }
@@ -162,11 +163,11 @@ static void rows_one_by_one(void *context)
         const float *axes = r->axes + 4 * i;
         const double sides[2][2] = {{(double)axes[0], (double)axes[1]}, {(double)axes[2], (double)axes[3]}};
         if (r->shape == RETEX_TEXTURE_PARALLELOGRAM) {
-            retex_texture_parallelogram(r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], sides,
+            filter_parallelogram(r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], sides,
                                         r->rgba + 4 * i);
             continue;
         }
-        (r->shape == RETEX_TEXTURE_DISC ? retex_texture_disc : retex_texture_gaussian)(
+        (r->shape == RETEX_TEXTURE_DISC ? filter_disc : filter_gaussian)(
             r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], covariance, r->rgba + 4 * i);
     }
     bench_sink = r->rgba[0];

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib_filter.h"
 #include "lib_fuzz.h"
 #include "texture/pyramid.h"
 
@@ -63,9 +64,9 @@ static void look_up(const RetexTextureSpec *spec)
         return;
     for (int i = 0; i < 16; i++) {
         const double *covariance = (double[3]){widths[i % 4], widths[i % 4] / 3, widths[i % 4]};
-        retex_texture_gaussian(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
+        filter_gaussian(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a filtered colour is finite");
-        retex_texture_disc(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
+        filter_disc(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a colour averaged over a disc is finite");
         retex_texture_point(texture, places[i / 4], places[i % 4], rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a colour is finite");
@@ -73,7 +74,7 @@ static void look_up(const RetexTextureSpec *spec)
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a texel is finite");
     }
     if (!retex_texture_square(&square, texture, 0, NULL)) {
-        retex_texture_disc(square, 0.1, 0.2, (double[3]){0.1, 0, 0.1}, rgba);
+        filter_disc(square, 0.1, 0.2, (double[3]){0.1, 0, 0.1}, rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a square is finite");
         retex_texture_close(&square);
     }

@@ -1,5 +1,6 @@
 /* Textures that stay in memory from one picture to the next. Whether an image is read again shows when its file is
  * gone. */
+#include "lib_filter.h"
 #include "common/kept_textures.h"
 #include "lib_folder.h"
 #include "lib_test.h"
@@ -70,8 +71,8 @@ static void expect_same(RetexTexture *const a[RETEX_MAX_TARGETS], RetexTexture *
             const double u = 4 * test_random(&seed) - 2, v = 4 * test_random(&seed) - 2;
             const double cov[3] = {1e-5, 0, 2e-5}; /* some texels: the mean of all would be that of any placement */
             float x[4], y[4];
-            retex_texture_gaussian(a[t], u, v, cov, x);
-            retex_texture_gaussian(b[t], u, v, cov, y);
+            filter_gaussian(a[t], u, v, cov, x);
+            filter_gaussian(b[t], u, v, cov, y);
             assert_memory_equal(x, y, sizeof x);
         }
     }

@@ -1,5 +1,6 @@
 /* Laid repeats: where each bond has which place of the image, and joints, against its definition in the plane; the
  * share of joints; what differs from repeat to repeat. */
+#include "lib_filter.h"
 #include "lib_test.h"
 #include "texture/lay.h"
 
@@ -261,7 +262,7 @@ static void test_share_of_joints(void **state)
         RetexTextureSpec spec = spec_of(repeat, w, repeat == RETEX_REPEAT_HEXAGON ? q : h, grout);
         RetexTexture *texture = create(&spec, 90, repeat == RETEX_REPEAT_HEXAGON ? 104 : 30);
         float rgba[4];
-        retex_texture_gaussian(texture, 0.3, 0.4, covariance, rgba);
+        filter_gaussian(texture, 0.3, 0.4, covariance, rgba);
         assert_float_equal(rgba[2], share, 0.03 * share + 0.002);
         retex_texture_close(&texture);
     }
@@ -339,7 +340,7 @@ static void test_seeds(void **state)
         spec.vary_seed = n == 2 ? 5 : 4;
         RetexTexture *texture = create(&spec, 40, 20);
         retex_texture_point(texture, 0.33, 0.27, of[n]);
-        retex_texture_gaussian(texture, 0, 0, covariance, mean);
+        filter_gaussian(texture, 0, 0, covariance, mean);
         assert_float_equal(mean[0], 0.5, 5e-3);
         retex_texture_close(&texture);
     }

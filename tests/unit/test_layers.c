@@ -1,5 +1,6 @@
 /* Layers: every look-up is that of the textures one by one, laid over each other; placement, squares and surfaces go to
  * all of them. */
+#include "lib_filter.h"
 #include "lib_test.h"
 #include "texture/filter.h"
 #include "texture/layer.h"
@@ -102,9 +103,9 @@ static void look_up(const RetexTexture *texture, double u, double v, double s, f
     const double covariance[3] = {s * s, 0.2 * s * s, s * s}, axes[2][2] = {{s, 0.1 * s}, {-0.2 * s, s}};
     const float uv[3] = {(float)u, (float)v, 1}, spread[3] = {(float)s, (float)s, 0.2f};
     retex_texture_point(texture, u, v, rgba[0]);
-    retex_texture_gaussian(texture, u, v, covariance, rgba[1]);
-    retex_texture_disc(texture, u, v, covariance, rgba[2]);
-    retex_texture_parallelogram(texture, u, v, axes, rgba[3]);
+    filter_gaussian(texture, u, v, covariance, rgba[1]);
+    filter_disc(texture, u, v, covariance, rgba[2]);
+    filter_parallelogram(texture, u, v, axes, rgba[3]);
     retex_texture_filter(texture, RETEX_TEXTURE_GAUSSIAN, uv, spread, 3, 1, rgba[4], 4);
 }
 

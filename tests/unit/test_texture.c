@@ -1,5 +1,6 @@
 /* Textures: wrap modes, the UV transform, and the Gaussian filter. The filter is compared with a simple numerical
  * integral of the point look-up, and with waves, whose filtered amplitude is known exactly. */
+#include "lib_filter.h"
 #include "lib_folder.h"
 #include "lib_test.h"
 #include "texture/pyramid.h"
@@ -212,8 +213,8 @@ static void test_integers(void **state)
         for (int k = 0; k < 400; k++) {
             const double u = 3 * test_random(&seed) - 1, v = 3 * test_random(&seed) - 1;
             float a[4], b[4];
-            retex_texture_gaussian(integers, u, v, covariances[k % 7], a);
-            retex_texture_gaussian(floats, u, v, covariances[k % 7], b);
+            filter_gaussian(integers, u, v, covariances[k % 7], a);
+            filter_gaussian(floats, u, v, covariances[k % 7], b);
             for (int c = 0; c < 4; c++)
                 if (fabsf(a[c] - b[c]) * (c < 3 ? b[3] : 1) > 2e-4f)
                     fail_msg("image %d, covariance %d, channel %d: %g, not %g", n, k % 7, c, (double)a[c],
@@ -307,8 +308,8 @@ static void test_transform(void **state)
         tcov[1] =
             m[0][0] * m[1][0] * cov[0] + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * cov[1] + m[0][1] * m[1][1] * cov[2];
         tcov[2] = m[1][0] * m[1][0] * cov[0] + 2 * m[1][0] * m[1][1] * cov[1] + m[1][1] * m[1][1] * cov[2];
-        retex_texture_gaussian(turned, u, v, cov, a);
-        retex_texture_gaussian(plain, tu, tv, tcov, b);
+        filter_gaussian(turned, u, v, cov, a);
+        filter_gaussian(plain, tu, tv, tcov, b);
         for (int k = 0; k < 4; k++)
             assert_float_equal(a[k], b[k], 1e-4);
     }
@@ -331,9 +332,9 @@ static void test_limits(void **state)
                 double tiny = 1e-3 / sizes[n][0], small[3] = {tiny * tiny, 0, tiny * tiny};
                 float a[4], b[4], c[4];
                 retex_texture_point(t, u, v, a);
-                retex_texture_gaussian(t, u, v, none, b);
+                filter_gaussian(t, u, v, none, b);
                 assert_memory_equal(a, b, sizeof a);
-                retex_texture_gaussian(t, u, v, small, c);
+                filter_gaussian(t, u, v, small, c);
                 double texel_u = u * sizes[n][0], texel_v = v * sizes[n][1];
                 int inside =
                     texel_u > 0.5 && texel_v > 0.5 && texel_u < sizes[n][0] - 0.5 && texel_v < sizes[n][1] - 0.5;
@@ -354,7 +355,7 @@ static void test_limits(void **state)
         for (int i = 0; i < 6; i++) {
             double cov[3] = {sds[i] * sds[i], 0, sds[i] * sds[i]};
             float a[4];
-            retex_texture_gaussian(t, 0.3 + i, 0.2 * i, cov, a);
+            filter_gaussian(t, 0.3 + i, 0.2 * i, cov, a);
             for (int k = 0; k < 3; k++)
                 assert_float_equal(a[k], mean[k], 2e-4);
             assert_float_equal(a[3], 1, 1e-5);
@@ -383,7 +384,7 @@ static void test_integral(void **state)
                 double u = 1.4 * test_random(&seed) - 0.2, v = 1.4 * test_random(&seed) - 0.2, want[4];
                 float got[4];
                 test_turned_covariance(cov, longer, shorter, M_PI * test_random(&seed));
-                retex_texture_gaussian(t, u, v, cov, got);
+                filter_gaussian(t, u, v, cov, got);
                 integrate(t, u, v, cov, 200, want);
                 for (int k = 0; k < 4; k++) {
                     double weight = k < 3 ? want[3] : 1, e = fabs((double)got[k] - want[k]) * weight;
@@ -470,7 +471,7 @@ static void measure_variance(int width, int height, double most_aspect, double *
             for (int k = 0; k < 8; k++, count++) {
                 double u = test_random(&seed), v = test_random(&seed);
                 float p[4];
-                retex_texture_gaussian(t, u, v, uvcov, p);
+                filter_gaussian(t, u, v, uvcov, p);
                 double complex got = (2 * (double)p[0] - 1) + I * (2 * (double)p[1] - 1);
                 double complex want = filtered_wave(f, cov, u * width, (v - 1) * height);
                 double e = -log(cabs(got) / cabs(want)) / (2 * M_PI * M_PI) / variance;
@@ -514,7 +515,7 @@ static void test_alpha(void **state)
         memcpy(im.pixels + 4 * i, i % 16 < 8 ? (float[4]){1, 0, 0, 1} : (float[4]){0, 1, 0, 0}, 16);
     RetexTexture *t = make_texture(&im, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT);
     float p[4];
-    retex_texture_gaussian(t, 0.4, 0.5, (double[3]){1, 0, 1}, p);
+    filter_gaussian(t, 0.4, 0.5, (double[3]){1, 0, 1}, p);
     assert_float_equal(p[0], 1, 1e-5);
     assert_float_equal(p[1], 0, 0);
     assert_float_equal(p[3], 0.5, 1e-3);
@@ -524,11 +525,11 @@ static void test_alpha(void **state)
         im.pixels[4 * i + 3] = 1;
     t = make_texture(&im, RETEX_WRAP_BLACK, RETEX_WRAP_BLACK);
     for (double sd = 0.01; sd < 0.2; sd *= 2) {
-        retex_texture_gaussian(t, 0, 0.5, (double[3]){sd * sd, 0, 1e-4}, p);
+        filter_gaussian(t, 0, 0.5, (double[3]){sd * sd, 0, 1e-4}, p);
         assert_float_equal(p[3], 0.5, 0.01);
         assert_float_equal(p[0], 1, 1e-2);
     }
-    retex_texture_gaussian(t, 40, 0.5, (double[3]){1, 0, 1}, p);
+    filter_gaussian(t, 40, 0.5, (double[3]){1, 0, 1}, p);
     assert_float_equal(p[3], 0, 0);
     retex_texture_close(&t);
     retex_image_free(&im);
@@ -548,7 +549,7 @@ static void test_bad_values(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         for (size_t j = 0; j < sizeof places / sizeof places[0]; j++) {
             float p[4];
-            retex_texture_gaussian(t, places[j], 0.5, bad[i], p);
+            filter_gaussian(t, places[j], 0.5, bad[i], p);
             for (int k = 0; k < 4; k++)
                 assert_true(isfinite(p[k]) && p[k] >= 0 && p[k] <= 1);
         }
@@ -565,7 +566,7 @@ static void test_bad_values(void **state)
     spec.color[1] = 0.5f;
     test_must(retex_texture_load(&t, &spec, 1, &err), &err);
     float p[4];
-    retex_texture_gaussian(t, 9, 9, (double[3]){1, 0, 1}, p);
+    filter_gaussian(t, 9, 9, (double[3]){1, 0, 1}, p);
     assert_memory_equal(p, ((float[4]){0, 0.5f, 0, 1}), sizeof p);
     retex_texture_close(&t);
     retex_texture_close(&t);
@@ -585,7 +586,7 @@ static void test_speed(void **state)
         test_turned_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
         clock_t began = clock();
         for (int k = 0; k < 200000; k++) {
-            retex_texture_gaussian(t, (k % 640) / 640.0, (k / 640) / 480.0, cov, p);
+            filter_gaussian(t, (k % 640) / 640.0, (k / 640) / 480.0, cov, p);
             sum += p[0];
         }
         seconds = (double)(clock() - began) / CLOCKS_PER_SEC;

@@ -1,5 +1,6 @@
 /* Measurements of the filter kernels: their mean and covariance, by filtering pictures of x, y, x^2, xy and y^2, and
  * their colours, compared with simple numerical integrals of the point look-up. */
+#include "lib_filter.h"
 #include "lib_test.h"
 #include "texture/pyramid.h"
 
@@ -90,7 +91,7 @@ typedef struct Errors {
 static void measure(const Moments *m, int disc, double x, double y, double longer, double shorter, double angle,
                     Errors *errors)
 {
-    Filter *filter = disc ? retex_texture_disc : retex_texture_gaussian;
+    Filter *filter = disc ? filter_disc : filter_gaussian;
     double cov[3], uv[3], w = m->width, h = m->height;
     float p[4], q[4];
     test_turned_covariance(cov, longer, shorter, angle);
@@ -196,7 +197,7 @@ static void test_disc_integral(void **state)
             cov[0] /= size[0] * size[0];
             cov[1] /= size[0] * size[1];
             cov[2] /= size[1] * size[1];
-            retex_texture_disc(t, u, v, cov, got);
+            filter_disc(t, u, v, cov, got);
             integrate_disc(t, u, v, cov, 100, want);
             for (int k = 0; k < 4; k++, count++) {
                 double e = fabs((double)got[k] * (k < 3 ? (double)got[3] : 1) - want[k]);
@@ -229,9 +230,9 @@ static void test_disc_limits(void **state)
         for (int i = 0; i < 50; i++) {
             double u = 0.05 + 0.9 * test_random(&seed), v = 0.05 + 0.9 * test_random(&seed), tiny = 1e-5 / size[0];
             retex_texture_point(t, u, v, a);
-            retex_texture_disc(t, u, v, (double[3]){0, 0, 0}, b);
+            filter_disc(t, u, v, (double[3]){0, 0, 0}, b);
             assert_memory_equal(a, b, sizeof a);
-            retex_texture_disc(t, u, v, (double[3]){tiny * tiny, 0, tiny * tiny}, b);
+            filter_disc(t, u, v, (double[3]){tiny * tiny, 0, tiny * tiny}, b);
             for (int k = 0; k < 4; k++)
                 assert_float_equal(a[k], b[k], 5e-3);
         }
@@ -244,7 +245,7 @@ static void test_disc_limits(void **state)
         static const double sds[] = {3, 20, 500, 1e6, 1e30};
         for (int i = 0; i < 5; i++) {
             double sd = sds[i], share = 1 / (4 * M_PI * sd * sd);
-            retex_texture_disc(t, 0.3 + i, 0.2 * i, (double[3]){sd * sd, 0, sd * sd}, b);
+            filter_disc(t, 0.3 + i, 0.2 * i, (double[3]){sd * sd, 0, sd * sd}, b);
             for (int k = 0; k < 4; k++)
                 assert_true(isfinite(b[k]) && b[k] >= 0 && b[k] <= 1.0001f);
             if (wrap_u == RETEX_WRAP_BLACK && wrap_v == RETEX_WRAP_BLACK && i < 3)
@@ -288,7 +289,7 @@ static void test_extremes(void **state)
         test_must(retex_texture_create(&textures[0], &im, &spec, 0, &err), &err);
         test_must(retex_texture_square(&textures[1], textures[0], 0, &err), &err);
         for (int i = 0; i < 9 * 20 * 4; i++) {
-            Filter *filter = i & 1 ? retex_texture_disc : retex_texture_gaussian;
+            Filter *filter = i & 1 ? filter_disc : filter_gaussian;
             float p[4], limit = (i & 2 ? largest * largest : largest) * 1.001f;
             filter(textures[i / 2 % 2], places[i / 80], places[(i / 80 + i) % 9], covariances[i / 4 % 20], p);
             for (int k = 0; k < 4; k++)
@@ -351,8 +352,8 @@ static void test_borders(void **state)
             v = up ? 1 - v : v;
             cov[0] = pow(0.1 * pow(0.05, test_random(&seed)), 2);
             cov[2] = pow(0.1 * pow(0.05, test_random(&seed)), 2);
-            retex_texture_gaussian(t, u, v, cov, got);
-            retex_texture_gaussian(without, u, v, cov, mixed);
+            filter_gaussian(t, u, v, cov, got);
+            filter_gaussian(without, u, v, cov, mixed);
             retex_texture_nearest(t, right ? 0.75 : 0.25, up ? 0.75 : 0.25, want);
             for (int k = 0; k < 4; k++)
                 assert_float_equal(got[k], want[k], 1e-5);
@@ -396,7 +397,7 @@ static void test_rest_of_a_footprint(void **state)
         double su = 0.004 + 0.05 * test_random(&seed), sv = 0.004 + 0.05 * test_random(&seed);
         double correlation = i % 4 ? 1.9 * test_random(&seed) - 0.95 : 0, z = 3 * test_random(&seed);
         float got[4];
-        retex_texture_gaussian(texture, 0.5 + z * su, 0.5, (double[3]){su * su, correlation * su * sv, sv * sv}, got);
+        filter_gaussian(texture, 0.5 + z * su, 0.5, (double[3]){su * su, correlation * su * sv, sv * sv}, got);
         double off = mean_above(-z), u = ((double)got[0] - 0.5) / su - z - off,
                v = ((double)got[1] - 0.5) / sv - correlation * off;
         double e = fmax(fabs(u), fabs(v));
@@ -440,19 +441,19 @@ static void test_uncut(void **state)
                 p[axis] = -0.25 + margin + (1.75 - 2 * margin) * test_random(&seed);
             }
             if (turned || 4.5 * longer + 0.3 < 0.8) {
-                retex_texture_gaussian(a, p[0], p[1], cov, x);
-                retex_texture_gaussian(b, p[0], p[1], cov, y);
+                filter_gaussian(a, p[0], p[1], cov, x);
+                filter_gaussian(b, p[0], p[1], cov, y);
                 assert_memory_equal(x, y, sizeof x);
             }
             p[0] = -0.25 + longer * test_random(&seed); /* at a border */
-            retex_texture_disc(a, p[0], p[1], cov, x);
-            retex_texture_disc(b, p[0], p[1], cov, y);
+            filter_disc(a, p[0], p[1], cov, x);
+            filter_disc(b, p[0], p[1], cov, y);
             assert_memory_equal(x, y, sizeof x);
-            retex_texture_gaussian(a, p[0], p[1], cov, x);
-            retex_texture_gaussian(b, p[0], p[1], cov, y);
+            filter_gaussian(a, p[0], p[1], cov, x);
+            filter_gaussian(b, p[0], p[1], cov, y);
             others += memcmp(x, y, sizeof x) != 0;
             p[0] = -0.25 - (i % 2 ? 1e-9 : 1000 * longer);
-            retex_texture_gaussian(b, p[0], p[1], cov, y);
+            filter_gaussian(b, p[0], p[1], cov, y);
             for (int k = 0; k < 4; k++)
                 assert_true(isfinite(y[k]) && y[k] >= 0 && y[k] <= 1.0001f);
             assert_true(y[3] > 0 || !repeats);
@@ -477,7 +478,7 @@ static void test_speed(void **state)
         float p[4];
         test_turned_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
         for (int disc = 0; disc < 2; disc++) {
-            Filter *filter = disc ? retex_texture_disc : retex_texture_gaussian;
+            Filter *filter = disc ? filter_disc : filter_gaussian;
             clock_t began = clock();
             for (int k = 0; k < 50000; k++)
                 filter(t, (k % 640) / 640.0, (k / 640) / 480.0, cov, p);

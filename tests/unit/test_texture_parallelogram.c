@@ -1,5 +1,6 @@
 /* Parallelograms: the filter for one agrees with a simple integral of the point look-up, the kernels for many agree
  * with it and among each other, and the quarters of a pixel make up the whole. */
+#include "lib_filter.h"
 #include "lib_test.h"
 #include "texture/batch.h"
 
@@ -81,7 +82,7 @@ static void test_integral(void **state)
                 sides[0][1] = sides[1][0] = 0;
             if (i % 8 == 4)
                 sides[0][0] = sides[1][1] = 0;
-            retex_texture_parallelogram(t, u, v, sides, got);
+            filter_parallelogram(t, u, v, sides, got);
             integrate(t, u, v, sides, 100, want);
             for (int k = 0; k < 4; k++, count++) {
                 const double e = fabs((double)got[k] * (k < 3 ? (double)got[3] : 1) - want[k]);
@@ -113,10 +114,10 @@ static void test_limits(void **state)
             const double line[2][2] = {{unit, unit}, {0, 0}}, thin[2][2] = {{unit, unit}, {1e-9, -1e-9}};
             double want[4];
             retex_texture_point(t, u, v, a);
-            retex_texture_parallelogram(t, u, v, none, b);
+            filter_parallelogram(t, u, v, none, b);
             assert_memory_equal(a, b, sizeof a);
-            retex_texture_parallelogram(t, u, v, line, a);
-            retex_texture_parallelogram(t, u, v, thin, b);
+            filter_parallelogram(t, u, v, line, a);
+            filter_parallelogram(t, u, v, thin, b);
             integrate(t, u, v, line, 60, want);
             for (int k = 0; k < 4 && repeats; k++) {
                 assert_float_equal(a[k] * (k < 3 ? a[3] : 1), (float)want[k], 0.02f);
@@ -124,7 +125,7 @@ static void test_limits(void **state)
             }
         }
         for (int i = 0; i < 5; i++) {
-            retex_texture_parallelogram(t, 0.3, 0.2, (const double[2][2]){{large[i], 0}, {large[i] / 3, large[i]}}, b);
+            filter_parallelogram(t, 0.3, 0.2, (const double[2][2]){{large[i], 0}, {large[i] / 3, large[i]}}, b);
             for (int k = 0; k < 4; k++)
                 assert_true(isfinite(b[k]) && b[k] >= 0 && b[k] <= 1.0001f);
         }
@@ -188,7 +189,7 @@ static void test_many_are_as_one(void **state)
             const double sides[2][2] = {{(double)axes[0], (double)axes[1]}, {(double)axes[2], (double)axes[3]}};
             float should[4] = {0, 0, 0, 0};
             if (uv[2] > 0)
-                retex_texture_parallelogram(t, (double)uv[0], (double)uv[1], sides, should);
+                filter_parallelogram(t, (double)uv[0], (double)uv[1], sides, should);
             for (int k = 0; k < 4; k++, count++) {
                 const double e = (double)(is[k] - should[k]) * (k < 3 ? (double)should[3] : 1);
                 squares += e * e;
@@ -226,7 +227,7 @@ static void test_quadrants(void **state)
             const double sides[2][2] = {{(double)axes[0] / 2, (double)axes[1] / 2},
                                         {(double)axes[2] / 2, (double)axes[3] / 2}};
             float want[4];
-            retex_texture_parallelogram(t, (double)uv[0] + right * (double)axes[0] + down * (double)axes[2],
+            filter_parallelogram(t, (double)uv[0] + right * (double)axes[0] + down * (double)axes[2],
                                         (double)uv[1] + right * (double)axes[1] + down * (double)axes[3], sides, want);
             for (int c = 0; c < 4; c++)
                 assert_float_equal(rgba[k][c] * (c < 3 ? rgba[k][3] : 1), want[c] * (c < 3 ? want[3] : 1), 0.01f);

@@ -1,5 +1,6 @@
 /* How a texture lies on its target: every transform is exact on points and on footprints, for means and covariances;
  * images of shifted repeats; squares. */
+#include "lib_filter.h"
 #include "lib_test.h"
 #include "texture/pyramid.h"
 
@@ -53,11 +54,11 @@ static void compare(const RetexTexture *edited, const RetexTexture *plain, const
         retex_texture_nearest(edited, u, v, a);
         retex_texture_nearest(plain, tu, tv, b);
         assert_colors(a, b, 1e-6);
-        retex_texture_gaussian(edited, u, v, cov, a);
-        retex_texture_gaussian(plain, tu, tv, moved, b);
+        filter_gaussian(edited, u, v, cov, a);
+        filter_gaussian(plain, tu, tv, moved, b);
         assert_colors(a, b, tolerance);
-        retex_texture_disc(edited, u, v, cov, a);
-        retex_texture_disc(plain, tu, tv, moved, b);
+        filter_disc(edited, u, v, cov, a);
+        filter_disc(plain, tu, tv, moved, b);
         assert_colors(a, b, tolerance);
     }
 }
@@ -334,7 +335,7 @@ static void test_square(void **state)
     spec.color[1] = 1e30f; /* becomes 65504 */
     test_must(retex_texture_load(&texture, &spec, 1, &err), &err);
     test_must(retex_texture_square(&a, texture, 0, &err), &err);
-    retex_texture_disc(a, 3, 4, (double[3]){1, 0, 1}, p);
+    filter_disc(a, 3, 4, (double[3]){1, 0, 1}, p);
     assert_memory_equal(p, ((float[4]){0.25f, 65504.0f * 65504.0f, 0, 1}), sizeof p);
     retex_texture_close(&texture);
     retex_texture_close(&a);
@@ -371,8 +372,8 @@ static void test_placed_anew(void **state)
             double u = 4 * test_random(&seed) - 2, v = 4 * test_random(&seed) - 2, cov[3];
             float a[4], b[4];
             test_turned_covariance(cov, 0.2 * test_random(&seed), 0.1, test_random(&seed));
-            retex_texture_gaussian(placed, u, v, cov, a);
-            retex_texture_gaussian(wanted, u, v, cov, b);
+            filter_gaussian(placed, u, v, cov, a);
+            filter_gaussian(wanted, u, v, cov, b);
             assert_colors(a, b, 0);
             retex_texture_point(placed, u, v, a);
             retex_texture_point(wanted, u, v, b);

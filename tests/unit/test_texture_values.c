@@ -1,4 +1,5 @@
 /* Texels that are not valid colours of a surface: their replacement, and the warnings. */
+#include "lib_filter.h"
 #include "lib_folder.h"
 #include "lib_test.h"
 
@@ -75,7 +76,7 @@ static void test_what_becomes_of_texels(void **state)
     expect_texel(texture, 5, 4, -.25f, .5f, .5f);
     expect_texel(texture, 1, 11, 5, 5, 5);
     float p[4];
-    retex_texture_gaussian(texture, .5, .5, (double[3]){1, 0, 1}, p);
+    filter_gaussian(texture, .5, .5, (double[3]){1, 0, 1}, p);
     assert_true(isfinite(p[0] + p[1] + p[2] + p[3]));
     retex_texture_close(&texture);
 

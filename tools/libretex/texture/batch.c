@@ -1,5 +1,5 @@
 /* Filters rows of footprints. Footprints with coverage are collected and given to the fastest kernel that the processor
- * can run; those that the kernel does not filter are filtered one by one. */
+ * can run; those that the kernel does not filter are given to it once more, one by one, in other forms. */
 #include "texture/batch.h"
 #include "texture/layer.h"
 
@@ -44,6 +44,25 @@ static RetexBatchLimit find_limit(const RetexTexture *texture, const RetexBatchT
                              (float)t->matrix[axis][along]};
 }
 
+static void set_levels(RetexBatchTexture *t)
+{
+    const int nlevels = t->texture->nlevels;
+    t->levels = count_levels(t->texture);
+    t->last = (nlevels < BATCH_LEVELS ? nlevels : BATCH_LEVELS) - 1;
+    for (int axis = 0; axis < 2; axis++)
+        for (int i = 0; i <= t->last; i++) {
+            const RetexTextureLevel *level = &t->texture->levels[i];
+            const int size = axis ? level->height : level->width;
+            t->texels[axis][i] = (float)size;
+            t->inverse_area[2 * axis][i] = (float)(1 / (level->scale[axis] * level->scale[axis]));
+            t->inverse_area[1][i] = (float)(1 / (level->scale[0] * level->scale[1]));
+            t->spread[axis][i] = size == 1 && (t->period[axis] > 0 || is_flat(t->texture, axis)) ? 0 : 1;
+            for (int k = 0; k < 2; k++)
+                t->blur[axis][k][i] = (float)level->blur[axis][k];
+            t->padding[i] = (float)level->padding;
+        }
+}
+
 static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
 {
     const RetexTextureLevel *image = &texture->levels[0];
@@ -58,7 +77,6 @@ static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexText
     }
     t->size[0] = image->width;
     t->size[1] = image->height;
-    t->levels = count_levels(texture);
     for (int axis = 0; axis < 2; axis++) {
         RetexWrap wrap = texture->spec.wrap[axis];
         double sign = axis ? -1 : 1;
@@ -69,43 +87,10 @@ static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexText
             t->matrix[axis][i] = sign * texture->matrix[axis][i];
             t->to_texels[axis][i] = (float)(t->matrix[axis][i] * t->size[axis]);
         }
-        for (int i = 0; i < t->levels; i++) {
-            const RetexTextureLevel *level = &texture->levels[i];
-            int alone = (axis ? level->height : level->width) == 1 && (t->period[axis] > 0 || is_flat(texture, axis));
-            t->texels[axis][i] = (float)(axis ? level->height : level->width);
-            t->inverse_area[2 * axis][i] = (float)(1 / (level->scale[axis] * level->scale[axis]));
-            t->inverse_area[1][i] = (float)(1 / (level->scale[0] * level->scale[1]));
-            t->spread[axis][i] = alone ? 0 : 1;
-            for (int k = 0; k < 2; k++)
-                t->blur[axis][k][i] = (float)level->blur[axis][k];
-            t->padding[i] = (float)level->padding;
-        }
         t->limits[axis] = find_limit(texture, t, axis);
         t->limited |= t->limits[axis].along >= 0;
     }
-}
-
-static void filter_parallelogram(const RetexTexture *texture, RetexTextureFilter shape, const float *uv,
-                                 const float *axes, float *rgba)
-{
-    const RetexParallelogram p = retex_parallelogram(shape, uv, axes);
-    const double sides[2][2] = {{(double)p.sides[0], (double)p.sides[1]}, {(double)p.sides[2], (double)p.sides[3]}};
-    retex_texture_parallelogram(texture, (double)p.uv[0], (double)p.uv[1], sides, rgba);
-}
-
-static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
-                       int spreads, float *rgba)
-{
-    if (shape >= RETEX_TEXTURE_PARALLELOGRAM) {
-        filter_parallelogram(texture, shape, uv, spread, rgba);
-        return;
-    }
-    double correlation = spreads == 3 ? (double)spread[2] : 0, u = (double)spread[0], v = (double)spread[1];
-    double covariance[3] = {u * u, correlation * u * v, v * v};
-    if (shape == RETEX_TEXTURE_DISC)
-        retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
-    else
-        retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], covariance, rgba);
+    set_levels(t);
 }
 
 static void add_ellipse(RetexBatch *batch, const float *uv, const float *spread, int spreads)
@@ -143,6 +128,178 @@ static inline void unassociate(const float in[4], float *out, int channels)
         memcpy(out, &color, 3 * sizeof *out);
 }
 
+/* ---- what a kernel leaves ---- */
+
+/* A footprint of a thousand repeats gives the average, whatever its size; larger sizes only lose digits. */
+#define MOST_REPEATS 1000.0
+#define FAR 1e4 /* images: farther away from one that does not repeat nothing changes */
+
+/* A footprint in images, y down. */
+typedef struct Left {
+    double at[2];
+    double spread[4]; /* xx, xy and yy; or the sides of a parallelogram */
+} Left;
+
+/* Limits the size to which nothing is lost; what is no size is a point. */
+static void limit_size(Left *left, int straight)
+{
+    double *s = left->spread, size = straight ? 0 : s[0] + s[2];
+    for (int i = 0; i < 4 && straight; i++)
+        size += s[i] * s[i] / 12;
+    const double most = MOST_REPEATS * MOST_REPEATS, shrink = size > most ? most / size : 1;
+    for (int i = 0; i < 4; i++)
+        s[i] = isfinite(size) ? s[i] * (straight ? sqrt(shrink) : shrink) : 0;
+}
+
+/* Of footprint k; 0 where its place is no number. */
+static int find_left(Left *left, const RetexBatchTexture *t, const RetexBatch *batch, int k)
+{
+    const double u = (double)batch->u[k], v = (double)batch->v[k];
+    double s[4];
+    for (int i = 0; i < 4; i++)
+        s[i] = (double)batch->spread[i][k];
+    for (int axis = 0; axis < 2; axis++)
+        left->at[axis] = t->matrix[axis][0] * u + t->matrix[axis][1] * v + t->offset[axis];
+    const double *x = t->matrix[0], *y = t->matrix[1], uu = s[0] * s[0], vv = s[1] * s[1],
+                 uv = fmax(fmin(s[2], 1), -1) * s[0] * s[1];
+    const double ellipse[4] = {x[0] * x[0] * uu + 2 * x[0] * x[1] * uv + x[1] * x[1] * vv,
+                               x[0] * y[0] * uu + (x[0] * y[1] + x[1] * y[0]) * uv + x[1] * y[1] * vv,
+                               y[0] * y[0] * uu + 2 * y[0] * y[1] * uv + y[1] * y[1] * vv};
+    const double sides[4] = {x[0] * s[0] + x[1] * s[1], y[0] * s[0] + y[1] * s[1], x[0] * s[2] + x[1] * s[3],
+                             y[0] * s[2] + y[1] * s[3]};
+    memcpy(left->spread, t->straight ? sides : ellipse, sizeof left->spread);
+    limit_size(left, t->straight);
+    return isfinite(left->at[0]) && isfinite(left->at[1]);
+}
+
+/* The share of a footprint that is at most so far from its mean along an axis. */
+static double share_below(double distance, const RetexBatchTexture *t, const Left *left, int axis)
+{
+    const double *s = left->spread, deviation = sqrt(fmax(s[2 * axis], 0)) + 1e-12;
+    if (t->gaussian)
+        return 0.5 * (1 + erf(distance / (deviation * M_SQRT2)));
+    if (!t->straight) { /* chords of an ellipse */
+        const double at = fmax(fmin(distance / (2 * deviation), 1), -1);
+        return 0.5 + (at * sqrt(1 - at * at) + asin(at)) / M_PI;
+    }
+    const double a = fabs(s[axis]) + 1e-9, b = fabs(s[2 + axis]) + 1e-9, ends[4] = {a + b, a - b, b - a, -a - b};
+    double sum = 0; /* of a parallelogram: the sum of two evenly distributed numbers */
+    for (int i = 0; i < 4; i++) {
+        const double beyond = fmax(distance + ends[i] / 2, 0);
+        sum += (i % 3 ? -0.5 : 0.5) * beyond * beyond;
+    }
+    return fmax(fmin(sum / (a * b), 1), 0);
+}
+
+/* The texture as it lies in the image's own UV, y down, around a footprint, which is moved into the first period. */
+static void place_left(RetexBatchTexture *t, Left *left, const RetexBatch *batch, int k)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        RetexBatchLimit *limit = &t->limits[axis];
+        const double period = t->period[axis], at = left->at[axis],
+                     first = period > 0 ? at - period * floor(at / period) : fmax(fmin(at, FAR), -FAR);
+        left->at[axis] = first >= 0 || !(period > 0) ? first : 0;
+        const double place = limit->along > 0 ? (double)batch->v[k] : (double)batch->u[k];
+        if (limit->along >= 0)
+            *limit = (RetexBatchLimit){
+                axis, (float)(left->at[axis] + ((double)limit->low - place) * (double)limit->scale),
+                (float)(left->at[axis] + ((double)limit->high - place) * (double)limit->scale), 1};
+        t->offset[axis] = 0;
+        for (int i = 0; i < 2; i++) {
+            t->matrix[axis][i] = axis == i;
+            t->to_texels[axis][i] = axis == i ? (float)t->size[axis] : 0;
+        }
+    }
+}
+
+static void put_left(RetexBatch *one, const Left *left, int straight)
+{
+    const double *s = left->spread, x = sqrt(s[0] > 0 ? s[0] : 0), y = sqrt(s[2] > 0 ? s[2] : 0);
+    const double ellipse[4] = {x, y, x * y > 0 ? s[1] / (x * y) : 0, 0};
+    one->count = 1;
+    one->u[0] = (float)left->at[0], one->v[0] = (float)left->at[1];
+    for (int i = 0; i < 4; i++)
+        one->spread[i][0] = (float)(straight ? s[i] : ellipse[i]);
+}
+
+/* At sharp borders, bits of axes, the image's texels go on outside, and the share of the footprint inside counts. */
+static double open_border(RetexBatchTexture *t, RetexTexture *edge, const Left *left, int sharp)
+{
+    double share = 1;
+    *edge = *t->texture;
+    edge->levels[0].padded = NULL;
+    edge->levels[0].padding = 0;
+    t->texture = edge;
+    t->padding[0] = 0;
+    for (int axis = 0; axis < 2; axis++) {
+        if (!(sharp & 1 << axis))
+            continue;
+        t->black[axis] = 0;
+        edge->spec.wrap[axis] = EDGE_TEXELS;
+        share *= share_below(1 - left->at[axis], t, left, axis) - share_below(-left->at[axis], t, left, axis);
+    }
+    return share;
+}
+
+/* How many texels of a level it has along an axis, at least. */
+static double texels_along(const Left *left, const RetexBatchTexture *t, int axis, int level)
+{
+    const double *s = left->spread;
+    return (double)t->texels[axis][level] * (double)t->spread[axis][level] *
+           (t->straight ? fabs(s[axis]) + fabs(s[2 + axis]) : 4 * sqrt(fmax(s[2 * axis], 0)));
+}
+
+/* Halves the extent along the axis where it has most texels on the coarsest level. Returns the share that is left of it
+ * in an image with transparent outside, which is much smaller. */
+static double shorten(Left *left, const RetexBatchTexture *t)
+{
+    double *s = left->spread;
+    const int axis = texels_along(left, t, 1, t->last) > texels_along(left, t, 0, t->last);
+    if (t->straight)
+        s[axis] /= 2, s[2 + axis] /= 2;
+    else
+        s[2 * axis] /= 4, s[1] /= 2;
+    return t->black[axis] ? 0.5 : 1;
+}
+
+/* A Gaussian of which limits would leave nothing is not cut. A footprint that is too long is filtered on coarser
+ * levels, and at last made shorter. */
+static void filter_left(RetexTextureBatchKernel *kernel, const RetexBatchTexture *prepared, const RetexBatch *batch,
+                        int k, float rgba[4])
+{
+    enum { STEPS = BATCH_LEVELS + 24 };
+    RetexBatchTexture t = *prepared;
+    RetexTexture edge;
+    RetexBatch one;
+    Left left;
+    double share = 1;
+    one.nleft = 1;
+    memset(rgba, 0, 4 * sizeof *rgba);
+    if (!find_left(&left, prepared, batch, k))
+        return;
+    place_left(&t, &left, batch, k);
+    int step = 0; /* windows have up to 144 texels */
+    while (step < t.last && fmax(texels_along(&left, &t, 0, step), texels_along(&left, &t, 1, step)) > 150)
+        step++;
+    for (; step < STEPS && one.nleft; step++) {
+        const int limited = t.limited;
+        t.first = step < t.last ? step : t.last;
+        share *= step > t.last ? shorten(&left, &t) : 1;
+        put_left(&one, &left, t.straight);
+        kernel(&t, &one);
+        if (one.nleft && one.sharp[0]) {
+            share *= open_border(&t, &edge, &left, one.sharp[0]);
+            kernel(&t, &one);
+        }
+        t.limited = 0;
+        if (one.nleft && limited)
+            kernel(&t, &one);
+        t.limited = limited;
+    }
+    for (int c = 0; c < 4 && !one.nleft; c++)
+        rgba[c] = one.rgba[0][c] * (float)share;
+}
+
 size_t retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
                                     RetexTextureFilter shape, const float *uv, const float *spread, int spreads,
                                     size_t n, float *colors, int channels)
@@ -171,10 +328,10 @@ size_t retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const Retex
             unassociate(batch.rgba[k], colors + (size_t)channels * from[k], channels);
         left += (size_t)batch.nleft;
         for (int k = 0; k < batch.nleft; k++) {
-            size_t at = from[batch.left[k]];
-            float rgba[4];
-            filter_one(texture, shape, uv + 3 * at, spread + (size_t)spreads * at, spreads, rgba);
-            memcpy(colors + (size_t)channels * at, rgba, (size_t)channels * sizeof *colors);
+            float *color = colors + (size_t)channels * from[batch.left[k]], rgba[4];
+            filter_left(kernel, &prepared, &batch, batch.left[k], rgba);
+            memset(color, 0, (size_t)channels * sizeof *color);
+            unassociate(rgba, color, channels);
         }
     }
     return left;
@@ -220,16 +377,26 @@ static void filter_over(const RetexTexture *over, RetexTextureFilter shape, cons
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
                           int spreads, size_t n, float *colors, int channels)
 {
-    if (!texture->over) {
-        filter_alone(texture, shape, uv, spread, spreads, n, colors, channels);
-        return;
-    }
     for (const RetexTexture *layer = texture; layer; layer = layer->over) {
-        RetexTexture alone = *layer; /* some footprints are filtered one by one, with what lies on the texture */
-        alone.over = NULL;
         if (layer == texture)
-            filter_alone(&alone, shape, uv, spread, spreads, n, colors, channels);
+            filter_alone(layer, shape, uv, spread, spreads, n, colors, channels);
         else
-            filter_over(&alone, shape, uv, spread, spreads, n, colors, channels);
+            filter_over(layer, shape, uv, spread, spreads, n, colors, channels);
+    }
+}
+
+void retex_texture_scaled_row(const RetexTexture *texture, int width, int height, int y, float *rgb)
+{
+    enum { PIXELS = 64 };
+    float uv[3 * PIXELS], axes[4 * PIXELS];
+    for (int from = 0; from < width; from += PIXELS) {
+        const int count = width - from < PIXELS ? width - from : PIXELS;
+        for (int x = 0; x < count; x++) {
+            const float at[3] = {(float)((from + x + 0.5) / width), (float)(1 - (y + 0.5) / height), 1},
+                        sides[4] = {(float)(1.0 / width), 0, 0, (float)(1.0 / height)};
+            memcpy(uv + 3 * x, at, sizeof at);
+            memcpy(axes + 4 * x, sides, sizeof sides);
+        }
+        retex_texture_filter(texture, RETEX_TEXTURE_PARALLELOGRAM, uv, axes, 4, (size_t)count, rgb + 3 * from, 3);
     }
 }

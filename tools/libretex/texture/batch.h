@@ -1,8 +1,7 @@
 /* Many footprints of one texture at once. Private to libretex.
  *
- * The sums are those of disc_kernel.c and filter_kernel.c, on coarser levels of the pyramid: texels times weights, for
- * 4 x 4 texels at a time, for as many footprints as the processor's vectors have lanes. All kernels do the same
- * arithmetic in the same order and give the same bits. */
+ * Sums of texels times weights, for 4 x 4 texels at a time, for as many footprints as the processor's vectors have
+ * lanes. All kernels do the same arithmetic in the same order and give the same bits. */
 #ifndef RETEX_TEXTURE_BATCH_H
 #define RETEX_TEXTURE_BATCH_H
 
@@ -41,6 +40,8 @@ typedef struct RetexBatchTexture {
     float padding[BATCH_LEVELS];         /* padding of each level */
     RetexBatchLimit limits[2];           /* limits of the image along x and y */
     int limited;                         /* 1: there is at least one limit */
+    int first, last;                     /* the finest level that may be chosen; and the coarsest one of all, some of
+                                            which have texels that are longer along one axis */
 } RetexBatchTexture;
 
 /* Input: footprints with coverage. Output: premultiplied colours, and the indices of footprints that the kernel did not
@@ -51,6 +52,8 @@ typedef struct RetexBatch {
     float spread[4][BATCH_SIZE]; /* deviations along u and v, correlation; or the sides of a parallelogram */
     float rgba[BATCH_SIZE][4];
     int left[BATCH_SIZE], nleft;
+    unsigned char sharp[BATCH_SIZE]; /* of those that are left: bits of axes where they are smaller than texels and a
+                                        transparent border cuts them */
 } RetexBatch;
 
 typedef void RetexTextureBatchKernel(const RetexBatchTexture *texture, RetexBatch *batch);

@@ -47,8 +47,9 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define STRAIGHT_LONG_LEAST 0.75f
 #define STRAIGHT_BOX_FROM 1.5f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
-#define LEAST_KEPT 1e-3f   /* share of a cut Gaussian that must remain; with less the reference ignores the limit */
+#define LEAST_KEPT 1e-3f   /* share of a cut Gaussian that must remain; with less it is left, and not cut */
 #define LEAST_RADIUS 0.02f /* texels */
+#define SHARP_VARIANCE 0.7f
 /* A Gaussian ends at 2.5 standard deviations, lowered so that it is 0 there, which leaves .7383 of its variance. */
 #define GAUSSIAN_REACH 2.5f
 #define GAUSSIAN_EDGE 0.043975f
@@ -57,7 +58,8 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define INNER_DISC 0.54119610f
 #define OUTER_DISC 1.30656296f
 
-/* Gauss's quadrature rules on 0..1, as in even_kernel.h: inside, after an ellipse's tip, before one, between both. */
+/* Gauss's quadrature rules on 0..1, at tips of ellipses Gauss-Jacobi's: inside, after an ellipse's tip, before one,
+ * between both. */
 static const float batch_nodes[2][4] = {{0.21132487f, 0.2899492f, 0.17883809f, 0.25f},
                                         {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
 static const float batch_weights[2][4] = {{0.5f, 0.5154537f, 0.42939674f, 0.45344984f},
@@ -229,7 +231,7 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Strip *strip,
     }
 }
 
-/* The same of parallelograms, as in even_kernel.h, for the pieces between corners that some lane has; returns the
+/* The same of parallelograms, for the pieces between corners that some lane has; returns the
  * number of chords. */
 RETEX_CPU_INLINE int NAME(find_straight_chords)(const Footprints *f, const Strip *strip, Lanes low, Chord *chords)
 {
@@ -591,10 +593,11 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
             batch->spread[k][i] = 0;
     }
     batch->nleft = 0;
+    memset(batch->sharp, 0, (size_t)batch->count);
     const int npending = NAME(filter_rows)(texture, batch, &places, pending);
     if (!npending)
         return;
-    NAME(leave_borders)(texture, batch->count, &places);
+    NAME(leave_borders)(texture, batch, &places);
     const int end = NAME(sort)(pending, npending, &places, order, ends);
     for (; begin < end; begin += footprints.count) {
         NAME(choose_footprints)(&footprints, order, ends, begin);

@@ -1,5 +1,5 @@
 /* A part of batch_body.h: Gaussians are cut off where the surface ends. A texel on the limit keeps the share of its
- * weight that is inside, as in filter_kernel.c. */
+ * weight that is inside. */
 
 /* The distance from a mean to the limits of the surface along an axis of the image, in texels of the level. */
 typedef struct Ends {
@@ -17,7 +17,7 @@ RETEX_CPU_INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lane
 }
 
 /* Converts the limits to lines and texels of a line; length and width are the half sizes of the window. Returns which
- * footprints are cut: none where all is beyond a limit, which the reference ignores then, as these limits do. */
+ * footprints are cut: none where all is beyond a limit, for then the limits are ignored. */
 RETEX_CPU_INLINE Mask NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};

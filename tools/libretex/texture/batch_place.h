@@ -10,11 +10,12 @@ typedef struct Places {
     float xx[BATCH_SIZE], yy[BATCH_SIZE];        /* variances in the level's texels */
     int line[BATCH_SIZE], texel[BATCH_SIZE];     /* the ellipse's first line; the whole part of the mean across */
     float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y along and across lines */
-    float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in even_kernel.h */
+    float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse: half its length, the middle chord */
     float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* slope of the blocks, and their extent to each side */
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
-    float inner[BATCH_SIZE], side[BATCH_SIZE];     /* of parallelograms, as in even_kernel.h */
+    float inner[BATCH_SIZE], side[BATCH_SIZE]; /* of parallelograms: where chords become shorter; the shift of their
+                                                  middles to the corner */
     float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* for batch_cut.h: limits of the surface, from the mean */
 } Places;
 
@@ -143,6 +144,8 @@ RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Sprea
     level &= level > 0;
     Mask over = level > t->levels - 1;
     level = (over & (t->levels - 1)) | (~over & level);
+    const Mask under = level < t->first;
+    level = (under & t->first) | (~under & level);
     *fine &= level == 0;
     return level;
 }
@@ -297,7 +300,7 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
         NAME(find_mean)(t, axis, u, v, mean[axis]);
         NAME(split_mean)(mean[axis], OF_LEVEL(t->texels[axis], level), &index[axis], &at[axis]);
     }
-    if (t->straight) { /* which do not shrink, as in parallelogram_kernel.c */
+    if (t->straight) { /* which do not shrink, so that those of neighbouring pixels adjoin */
         NAME(scale_sides)(t, &sides, level, far);
         s = NAME(spread_of_sides)(&sides);
     } else {
@@ -325,20 +328,27 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
     NAME(find_window)(t, &outline, turned, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
 }
 
-/* Leaves footprints that a transparent border cuts to the reference. */
-RETEX_CPU_INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
+/* Leaves footprints smaller than texels that a transparent border cuts: it is sharp there. For others the texels around
+ * the image are transparent. */
+RETEX_CPU_INLINE void NAME(leave_borders)(const RetexBatchTexture *t, RetexBatch *batch, Places *p)
 {
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : t->straight ? 2.5f : 2;
+    if (!t->black[0] && !t->black[1])
+        return;
     for (int axis = 0; axis < 2; axis++) {
         if (!t->black[axis])
             continue;
         const float *variance = axis ? p->yy : p->xx, *at = axis ? p->at_y : p->at_x;
         const int *index = axis ? p->row : p->column;
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < batch->count; i++) {
+            if (p->key[i] == NKEYS || !(p->key[i] / (MAX_STRIPS * MAX_BLOCKS) % 2) || variance[i] > SHARP_VARIANCE)
+                continue;
             const RetexTextureLevel *level = &t->texture->levels[p->level[i]];
             float x = (float)index[i] + at[i], reach = wider * sqrtf(variance[i]) + 1.5f;
             if (x - reach < 0 || x + reach > (float)((axis ? level->height : level->width) - 1))
-                p->key[i] = NKEYS;
+                batch->sharp[i] |= (unsigned char)(1 << axis);
         }
     }
+    for (int i = 0; i < batch->count; i++)
+        p->key[i] = batch->sharp[i] ? NKEYS : p->key[i];
 }

@@ -31,9 +31,10 @@ static inline RetexParallelogram retex_parallelogram(RetexTextureFilter shape, c
     return p;
 }
 
-/* n footprints as sets hold them, filtered as retex_texture_disc, _gaussian or _parallelogram would, some ten times as
- * fast. Colours differ from theirs by no more than can be seen; they do not depend on what is filtered beside them, nor
- * on the machine. Where coverage is not above 0 the result is 0 and costs next to nothing. Thread-safe. */
+/* n footprints as sets hold them: the texture averaged over each. A Gaussian has the mean and the covariance of the
+ * footprint; a disc is the ellipse of these whose half axes are two standard deviations. Colours count by alpha. They
+ * do not depend on what is filtered beside them, nor on the machine. Where coverage is not above 0 the result is 0 and
+ * costs next to nothing. Thread-safe. */
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
                           const float *uv /* n x 3: u, v, coverage */,
                           const float *spread /* n x spreads: standard deviations along u and v, their correlation; or

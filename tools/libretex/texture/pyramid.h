@@ -105,7 +105,12 @@ static inline int retex_texture_has_finishes(const RetexTexture *texture)
 /* 1: nothing shows through it anywhere. */
 int retex_texture_is_opaque(const RetexTexture *texture);
 
-size_t retex_texture_texel_size(int narrow);           /* bytes */
+/* In bytes. */
+static inline size_t texel_size(int narrow)
+{
+    return narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
+}
+
 int retex_texels_alloc(RetexTexels *texels); /* allocate texels by width, height and narrow; not 0: out of memory */
 void retex_texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4]);
 /* Integers hold what is in 0..1. */
@@ -113,22 +118,8 @@ void retex_texture_store_texel(const RetexTexels *texels, size_t index, const fl
 /* Make the texels level 0, and compute all other levels. Not 0: out of memory. */
 int retex_texture_build_pyramid(RetexTexture *texture, RetexTexels *texels, int nthreads);
 
-/* A footprint in texels of the image, y down. */
-typedef struct RetexTexelFootprint {
-    double x, y;
-    double xx, xy, yy;
-    double low[2], high[2]; /* limits of the surface from (x, y) along x and y; -inf, inf: none */
-} RetexTexelFootprint;
-
-/* Filters with premultiplied results. The first is the bilinear look-up, the second the nearest texel, the third a row
- * of texels; the others need a covariance that is finite and positive semidefinite. */
+/* Look-ups with premultiplied results: bilinear, and the nearest texel. */
 void retex_texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
 void retex_texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
-void retex_texture_row_kernel(const RetexTexture *texture, int y, float *rgb);
-void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
-void retex_texture_disc_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
-/* sides: the two axes of a parallelogram in texels, each x and y, whose covariance the footprint has. */
-void retex_texture_parallelogram_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint,
-                                        const double sides[2][2], float rgba[4]);
 
 #endif

@@ -10,11 +10,6 @@
 #define PADDING 56               /* texels: about half of the longest window */
 #define MOST_PADDED (640 * 640L) /* texels of a padded level */
 
-size_t retex_texture_texel_size(int narrow)
-{
-    return texel_size(narrow);
-}
-
 int retex_texels_alloc(RetexTexels *texels)
 {
     texels->texels = malloc(texel_size(texels->narrow) * (size_t)texels->width * (size_t)texels->height);

@@ -1,5 +1,4 @@
-/* Shared by the two filters: reading texels beyond the borders of a level, and the covariance that remains on a level.
- * Included by the kernels of this room alone. */
+/* Reading texels, also beyond the borders of a level. Included by the kernels of this room alone. */
 #ifndef RETEX_TEXTURE_TEXTURE_KERNEL_H
 #define RETEX_TEXTURE_TEXTURE_KERNEL_H
 
@@ -10,9 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#define TENT_VARIANCE (1.0 / 6)
-
-/* A texel as it is stored, and its size in bytes. */
+/* A texel as it is stored. */
 static inline RetexFloat4 raw_texel(const void *p, int narrow)
 {
     if (!narrow)
@@ -20,11 +17,6 @@ static inline RetexFloat4 raw_texel(const void *p, int narrow)
     uint16_t t[4];
     memcpy(t, p, sizeof t);
     return (RetexFloat4){t[0], t[1], t[2], t[3]};
-}
-
-static inline size_t texel_size(int narrow)
-{
-    return narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
 }
 
 /* The factor of sums of raw texels. */
@@ -46,11 +38,21 @@ static inline int whole_above(double x)
     return i + (x > i);
 }
 
+static inline int clamp_index(int i, int n)
+{
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+/* A wrap mode of kernels alone: the texels of the level's border go on outside. */
+#define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1))
+
 /* Wraps i into 0..n-1; -1 or n where it is outside of an axis that neither repeats nor mirrors. */
 static inline int wrap_index(int i, int n, RetexWrap wrap)
 {
     if ((unsigned)i < (unsigned)n)
         return i;
+    if (wrap == EDGE_TEXELS)
+        return clamp_index(i, n);
     switch (wrap) {
     case RETEX_WRAP_REPEAT:
         i %= n;
@@ -64,11 +66,6 @@ static inline int wrap_index(int i, int n, RetexWrap wrap)
         break;
     }
     return i < 0 ? -1 : n;
-}
-
-static inline int clamp_index(int i, int n)
-{
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
 }
 
 /* One row of a level: texels inside, and those to the left and right; NULL = transparent. */
@@ -128,58 +125,11 @@ static inline double first_period(double x, int texels, RetexWrap wrap)
     return x < -far ? -far : x > far ? far : x;
 }
 
-/* p (1 - p) of blur, averaged over a footprint of that standard deviation (of the axis as 1): on a repeating axis it
- * tends to its mean, 1/6, about as exp(-2 pi^2 sd^2). */
-static inline double mean_position(double x, double variance, double size, RetexWrap wrap)
-{
-    double p = x / size, damping = 1 + 10 * variance / (size * size);
-    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK)
-        p = p < 0 ? 0 : p > 1 ? 1 : p;
-    else
-        p -= floor(p); /* a mirrored image has the same blur at p and 1 - p */
-    return 1.0 / 6 + (p * (1 - p) - 1.0 / 6) / (damping * damping);
-}
-
-/* The covariance that the sum over a level's texels must have, in that level's texels. */
-typedef struct RetexLevelCovariance {
-    double xx, xy, yy;
-} RetexLevelCovariance;
-
-static inline RetexLevelCovariance level_rest(const RetexTextureLevel *level, const RetexTexelFootprint *f,
-                                              const double position[2])
-{
-    double sx = level->scale[0], sy = level->scale[1];
-    double blur_x = level->blur[0][0] + level->blur[0][1] * position[0];
-    double blur_y = level->blur[1][0] + level->blur[1][1] * position[1];
-    RetexLevelCovariance rest = {(f->xx + TENT_VARIANCE - blur_x) / (sx * sx), f->xy / (sx * sy),
-                 (f->yy + TENT_VARIANCE - blur_y) / (sy * sy)};
-    return rest;
-}
-
 /* 1 if the image cannot change along an axis: it has one texel, and nothing else beside it. */
 static inline int is_flat(const RetexTexture *texture, int axis)
 {
     const RetexTextureLevel *image = &texture->levels[0];
     return (axis ? image->height : image->width) == 1 && texture->spec.wrap[axis] != RETEX_WRAP_BLACK;
-}
-
-/* A step without a common factor with the period, which visits all texels of a repeating axis. */
-static inline int coprime_step(int step, int texels, RetexWrap wrap)
-{
-    int period = wrap == RETEX_WRAP_MIRROR ? 2 * texels : texels;
-    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK || period < 2)
-        return step;
-    for (int tries = 0; tries < 16; tries++, step++) {
-        int a = step, b = period;
-        while (b) {
-            int rest = a % b;
-            a = b;
-            b = rest;
-        }
-        if (a == 1)
-            return step;
-    }
-    return step;
 }
 
 #endif

@@ -30,21 +30,9 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
  * alpha. The texture must have an image. */
 void retex_texture_row(const RetexTexture *texture, int y, float *rgb);
 
-/* The texture averaged over a Gaussian of mean (u, v) and covariance {uu, uv, vv} in surface UV (before the spec's
- * transform, which is applied to both exactly). With zero covariance equals retex_texture_point. Colours are averaged
- * with alpha as their weight; rgba, unassociated. */
-void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
-
-/* The same over a disc: the texture averaged evenly over the ellipse of that mean and covariance, whose half axes are
- * two standard deviations along its principal axes (a disc of radius R has the variance R^2 / 4 along each axis). A
- * footprint that a box pixel filter sees sharply is about that. Very long ellipses, of more than some forty times their
- * width, skip texels along their length. */
-void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
-
-/* The same over the parallelogram with that middle and two sides, each a step in u and v: what a pixel sees of a
- * surface whose UV change evenly across it. */
-void retex_texture_parallelogram(const RetexTexture *texture, double u, double v, const double sides[2][2],
-                                 float rgba[4]);
+/* Row y of the image scaled to that size: red, green and blue of each pixel, the texture's mean over its area, not
+ * multiplied by alpha. */
+void retex_texture_scaled_row(const RetexTexture *texture, int width, int height, int y, float *rgb);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-/* Texture look-ups: the bilinear point, and the exact Gaussian footprint.
+/* The exact Gaussian footprint. See lib_filter.h.
  *
  * The average is of the bilinear reconstruction of the image, so that a footprint that shrinks to a point becomes the
  * point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's
@@ -9,7 +9,7 @@
  * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose centre
  * moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation, and where
  * the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
-#include "texture/texture_kernel.h"
+#include "lib_filter_texels.h"
 
 typedef int Int4 __attribute__((vector_size(16)));
 
@@ -30,7 +30,6 @@ typedef int Int4 __attribute__((vector_size(16)));
 typedef struct Edges {
     int sharp[2];
 } Edges;
-#define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
 
 /* The sum of weight[i] * texel(first + i * step) of one row, texels as they are stored. */
 static inline RetexFloat4 sum_row(const RetexLevelRow *row, int width, RetexWrap wrap, int narrow,
@@ -198,10 +197,10 @@ static inline void limit_taps(Shape *x, Shape *y, const RetexTextureLevel *level
 }
 
 /* 1 if both eigenvalues of the covariance that remains on a level are at least LEAST_VARIANCE. */
-static inline int level_fits(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
+static inline int level_fits(const RetexTexture *texture, int level, const TexelFootprint *f,
                              const double position[2])
 {
-    RetexLevelCovariance rest = level_rest(&texture->levels[level], f, position);
+    LevelCovariance rest = level_rest(&texture->levels[level], f, position);
     double x = rest.xx - LEAST_VARIANCE, y = rest.yy - LEAST_VARIANCE;
     if (is_flat(texture, 0))
         return y >= 0;
@@ -211,7 +210,7 @@ static inline int level_fits(const RetexTexture *texture, int level, const Retex
 }
 
 /* The coarsest level that fits; the image itself always does. */
-static inline int find_level(const RetexTexture *texture, const RetexTexelFootprint *f, const double position[2])
+static inline int find_level(const RetexTexture *texture, const TexelFootprint *f, const double position[2])
 {
     double trace = f->xx + f->yy;
     /* det / trace lies between half the smaller eigenvalue and itself, and a level of s texels wants about 0.43 s^2: a
@@ -248,7 +247,7 @@ static const Limits no_limits = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
 /* The sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. *kept: the share
  * of it within the limits. */
 static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexTextureLevel *level, float x, float y,
-                                    RetexLevelCovariance rest, const Limits *limits, const Edges *edges, float *kept)
+                                    LevelCovariance rest, const Limits *limits, const Edges *edges, float *kept)
 {
     /* Along an axis of one repeating texel only the marginal matters. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
@@ -313,7 +312,7 @@ static float coverage(double x, double variance, double size)
     return (float)(0.5 * (erf((size - x) * inverse) + erf(x * inverse)));
 }
 
-void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4])
+void filter_texels_gaussian(const RetexTexture *texture, const TexelFootprint *footprint, float rgba[4])
 {
     const RetexTextureLevel *image = &texture->levels[0];
     double x = first_period(footprint->x, image->width, texture->spec.wrap[0]);
@@ -321,7 +320,7 @@ void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexel
     double position[2] = {mean_position(x, footprint->xx, image->width, texture->spec.wrap[0]),
                           mean_position(y, footprint->yy, image->height, texture->spec.wrap[1])};
     const RetexTextureLevel *level = &texture->levels[find_level(texture, footprint, position)];
-    RetexLevelCovariance rest = level_rest(level, footprint, position);
+    LevelCovariance rest = level_rest(level, footprint, position);
     Edges edges = {{texture->spec.wrap[0] == RETEX_WRAP_BLACK && rest.xx < TENT_LIMIT,
                     texture->spec.wrap[1] == RETEX_WRAP_BLACK && rest.yy < TENT_LIMIT}};
     Limits limits;
@@ -338,57 +337,4 @@ void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexel
     if (edges.sharp[1])
         sum *= coverage(y, footprint->yy, image->height);
     memcpy(rgba, &sum, sizeof sum);
-}
-
-/* An axis with transparent outside ends sharply: a point within half a texel of the border has the border's texel. */
-static RetexWrap wrap_of_points(const RetexTexture *texture, int axis)
-{
-    return texture->spec.wrap[axis] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[axis];
-}
-
-void retex_texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
-{
-    const RetexTextureLevel *image = &texture->levels[0];
-    x = first_period(x, image->width, texture->spec.wrap[0]) - 0.5;
-    y = first_period(y, image->height, texture->spec.wrap[1]) - 0.5;
-    int x0 = whole_below(x), y0 = whole_below(y);
-    float tx = (float)(x - x0), ty = (float)(y - y0);
-    RetexWrap wrap_x = wrap_of_points(texture, 0), wrap_y = wrap_of_points(texture, 1);
-    RetexFloat4 lines[2];
-    size_t size = texel_size(texture->narrow);
-    int columns[2];
-    for (int i = 0; i < 2; i++)
-        columns[i] = clamp_index(wrap_index(x0 + i, image->width, wrap_x), image->width);
-    for (int j = 0; j < 2; j++) {
-        int line = clamp_index(wrap_index(y0 + j, image->height, wrap_y), image->height);
-        const char *row = (const char *)image->texels + (size_t)line * (size_t)image->width * size;
-        lines[j] = raw_texel(row + (size_t)columns[0] * size, texture->narrow) * (1 - tx) +
-                   raw_texel(row + (size_t)columns[1] * size, texture->narrow) * tx;
-    }
-    RetexFloat4 sum = (lines[0] * (1 - ty) + lines[1] * ty) * texel_unit(texture->narrow);
-    memcpy(rgba, &sum, sizeof sum);
-}
-
-void retex_texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
-{
-    const RetexTextureLevel *image = &texture->levels[0];
-    int column = whole_below(first_period(x, image->width, texture->spec.wrap[0]));
-    int line = whole_below(first_period(y, image->height, texture->spec.wrap[1]));
-    column = clamp_index(wrap_index(column, image->width, wrap_of_points(texture, 0)), image->width);
-    line = clamp_index(wrap_index(line, image->height, wrap_of_points(texture, 1)), image->height);
-    size_t texel = (size_t)line * (size_t)image->width + (size_t)column;
-    RetexFloat4 value = raw_texel((const char *)image->texels + texel * texel_size(texture->narrow), texture->narrow) *
-                        texel_unit(texture->narrow);
-    memcpy(rgba, &value, sizeof value);
-}
-
-void retex_texture_row_kernel(const RetexTexture *texture, int y, float *rgb)
-{
-    const RetexTextureLevel *image = &texture->levels[0];
-    const size_t size = texel_size(texture->narrow);
-    const char *texel = (const char *)image->texels + (size_t)y * (size_t)image->width * size;
-    for (int x = 0; x < image->width; x++, texel += size, rgb += 3) {
-        RetexFloat4 value = raw_texel(texel, texture->narrow) * texel_unit(texture->narrow);
-        memcpy(rgb, &value, 3 * sizeof *rgb);
-    }
 }

@@ -1,7 +1,7 @@
-/* Textures averaged evenly over an outline, an ellipse or a parallelogram, one footprint at a time. Included by
- * disc_kernel.c and parallelogram_kernel.c alone.
+/* Textures averaged evenly over an outline, an ellipse or a parallelogram, one footprint at a time. See
+ * lib_filter.h.
  *
- * As in filter_kernel.c the average is of the bilinear reconstruction of the image, and the variance of a level's
+ * As in lib_filter_gaussian.c the average is of the bilinear reconstruction of the image, and the variance of a level's
  * texels is compensated: the outline shrinks by it. On coarser levels, where an outline covers many texels, texels are
  * treated as averages over squares: a box replaces the tent.
  *
@@ -11,10 +11,7 @@
  * however long it is. From chord to chord the quadrature is Gauss's between two lines of texels, where the tent is
  * linear. At an ellipse's tips, where the chord's length is a square root, it is Gauss-Jacobi's; a parallelogram is cut
  * at its corners, between which the chord's length is linear. */
-#ifndef RETEX_TEXTURE_EVEN_KERNEL_H
-#define RETEX_TEXTURE_EVEN_KERNEL_H
-
-#include "texture/texture_kernel.h"
+#include "lib_filter_texels.h"
 
 /* The smaller eigenvalue that must remain on a level: below it the result depends visibly on the position of texels. */
 #define LEAST_VARIANCE 0.2
@@ -91,7 +88,7 @@ static const Rule rules[2][4] = {
        {0.9330127f, 0.13089969f}}}}};
 
 /* The ellipse of a covariance, in lines; a flat axis, of one repeating texel, is across. */
-static inline Outline find_ellipse(const RetexLevelCovariance *c, const int flat[2], int *turned)
+static Outline find_ellipse(const LevelCovariance *c, const int flat[2], int *turned)
 {
     double xx = c->xx > 0 ? c->xx : 0, yy = c->yy > 0 ? c->yy : 0;
     *turned = flat[1] || (xx > yy && !flat[0]);
@@ -105,39 +102,39 @@ static inline Outline find_ellipse(const RetexLevelCovariance *c, const int flat
     return e;
 }
 
-static inline void find_flat(const RetexTexture *texture, const RetexTextureLevel *level, int flat[2])
+static void find_flat(const RetexTexture *texture, const RetexTextureLevel *level, int flat[2])
 {
     flat[0] = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
     flat[1] = level->height == 1 && (texture->spec.wrap[1] <= RETEX_WRAP_MIRROR || is_flat(texture, 1));
 }
 
 /* The covariance of the ellipse on a level, without that of the level's reconstruction. */
-static inline RetexLevelCovariance ellipse_rest(const RetexTextureLevel *level, const RetexTexelFootprint *f,
+static LevelCovariance ellipse_rest(const RetexTextureLevel *level, const TexelFootprint *f,
                                                 const double position[2], int box)
 {
-    RetexLevelCovariance rest = level_rest(level, f, position);
+    LevelCovariance rest = level_rest(level, f, position);
     rest.xx -= box ? BOX_VARIANCE : TENT_VARIANCE;
     rest.yy -= box ? BOX_VARIANCE : TENT_VARIANCE;
     return rest;
 }
 
-static inline int level_variance_left(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
+static int level_variance_left(const RetexTexture *texture, int level, const TexelFootprint *f,
                                       const double position[2], double least)
 {
-    RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
+    LevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
     double x = rest.xx - least, y = rest.yy - least;
     if (is_flat(texture, 0) || is_flat(texture, 1))
         return (is_flat(texture, 0) || x >= 0) && (is_flat(texture, 1) || y >= 0);
     return x >= 0 && y >= 0 && x * y >= rest.xy * rest.xy;
 }
 
-static inline int taps_of(const Outline *e)
+static int taps_of(const Outline *e)
 {
     double length = e->length < 1e4 ? e->length : 1e4, half = e->half < 1e4 ? e->half : 1e4;
     return (int)((2 * length + 2) * (2 * half + 2 + fabs(e->slope)));
 }
 
-static inline int find_level(const RetexTexture *texture, const RetexTexelFootprint *f, const double position[2],
+static int find_level(const RetexTexture *texture, const TexelFootprint *f, const double position[2],
                              int *box)
 {
     double trace = f->xx + f->yy, smaller = trace > 0 ? (f->xx * f->yy - f->xy * f->xy) / trace : 0;
@@ -150,7 +147,7 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
         level++;
     for (; level + 1 < texture->nlevels; level++) {
         find_flat(texture, &texture->levels[level], flat);
-        RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
+        LevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
         Outline e = find_ellipse(&rest, flat, &turned);
         if (taps_of(&e) <= MAX_TEXELS || !level_variance_left(texture, level + 1, f, position, LEAST_VARIANCE))
             break;
@@ -161,7 +158,7 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
 
 /* The index of a line, or of a texel of a line, in the level. Transparent axes are cut where the image ends, so that
  * the border's texels continue. */
-static inline int wrap_line(const Lines *lines, int axis, int i)
+static int wrap_line(const Lines *lines, int axis, int i)
 {
     int n = lines->count[axis];
     return lines->wrap[axis] == RETEX_WRAP_BLACK ? clamp_index(i, n) : wrap_index(i, n, lines->wrap[axis]);
@@ -184,7 +181,7 @@ static const char *find_texel(const Lines *lines, int line, int texel)
 }
 
 /* The sum of weights times texels that are `step` bytes apart. */
-static inline RetexFloat4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
+static RetexFloat4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
 {
     RetexFloat4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
     int i = 0;
@@ -197,7 +194,7 @@ static inline RetexFloat4 sum_texels(const char *p, const float *weights, int co
     return sum + odd;
 }
 
-static inline void begin_strip(Strip *strip, int used)
+static void begin_strip(Strip *strip, int used)
 {
     strip->low[0] = strip->low[1] = MAX_ACROSS;
     strip->high[0] = strip->high[1] = 0;
@@ -206,7 +203,7 @@ static inline void begin_strip(Strip *strip, int used)
 
 /* The sum of a line's texels with its weights; then the strip moves to the next line. base: the texel of the strip's
  * first weight. */
-static inline RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
+static RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
 {
     RetexFloat4 sum = {0, 0, 0, 0};
     int low = strip->low[0] < strip->low[1] ? strip->low[0] : strip->low[1];
@@ -243,14 +240,14 @@ typedef struct End {
     int texel;
 } End;
 
-static inline End find_end(float x, int box)
+static End find_end(float x, int box)
 {
     int i = (int)x;
     float f = x - (float)i, g = 1 - f;
     return box ? (End){g, 0, i} : (End){0.5f * g * g, 0.5f * f * f, i};
 }
 
-static inline void add_end(Strip *restrict strip, End end, Float2 weight)
+static void add_end(Strip *restrict strip, End end, Float2 weight)
 {
     Float2 *restrict change = strip->change + end.texel;
     change[0] += weight * end.first;
@@ -258,7 +255,7 @@ static inline void add_end(Strip *restrict strip, End end, Float2 weight)
     change[2] += weight * end.last;
 }
 
-static inline void add_chord(Strip *restrict strip, End left, End right, Float2 weight)
+static void add_chord(Strip *restrict strip, End left, End right, Float2 weight)
 {
     add_end(strip, left, weight);
     add_end(strip, right, -weight);
@@ -283,7 +280,7 @@ typedef struct Shape {
 } Shape;
 
 /* The chord at a distance d from the middle one, relative to it: its length, and where its middle is. */
-static inline float chord_length(const Shape *shape, float d, float *middle)
+static float chord_length(const Shape *shape, float d, float *middle)
 {
     *middle = shape->slope * d;
     if (shape->straight) {
@@ -296,13 +293,13 @@ static inline float chord_length(const Shape *shape, float d, float *middle)
     return sqrtf(s2 > 0 ? s2 : 0);
 }
 
-static inline float limit(float x, const float range[2])
+static float limit(float x, const float range[2])
 {
     x = x > range[0] ? x : range[0];
     return x < range[1] ? x : range[1];
 }
 
-static inline void find_chords(Chords *restrict chords, int count, const Shape *restrict shape, int box)
+static void find_chords(Chords *restrict chords, int count, const Shape *restrict shape, int box)
 {
     float low = shape->cut[0], high = shape->cut[1];
     for (int i = 0; i < count; i++) {
@@ -324,7 +321,7 @@ static inline void find_chords(Chords *restrict chords, int count, const Shape *
 }
 
 /* The limits at which an axis is cut off, relative to base. */
-static inline void find_cut(const Lines *lines, int axis, double base, float cut[2])
+static void find_cut(const Lines *lines, int axis, double base, float cut[2])
 {
     int black = lines->wrap[axis] == RETEX_WRAP_BLACK;
     cut[0] = black ? (float)(-0.5 - base) : -1e9f;
@@ -332,7 +329,7 @@ static inline void find_cut(const Lines *lines, int axis, double base, float cut
 }
 
 /* The next place after `at` where the chords' length has another law. */
-static inline float next_corner(const Shape *shape, float at, float end)
+static float next_corner(const Shape *shape, float at, float end)
 {
     const float corners[2] = {shape->y - shape->inner, shape->y + shape->inner};
     for (int k = 0; k < 2 && shape->straight; k++)
@@ -342,12 +339,12 @@ static inline float next_corner(const Shape *shape, float at, float end)
 }
 
 /* The integral of the chords' lengths. */
-static inline double whole_length(const Outline *e)
+static double whole_length(const Outline *e)
 {
     return e->straight ? e->length + e->inner : M_PI_2 * e->length;
 }
 
-static inline Shape shape_of(const Outline *e)
+static Shape shape_of(const Outline *e)
 {
     return (Shape){.length = (float)e->length,
                    .slope = (float)e->slope,
@@ -358,7 +355,7 @@ static inline Shape shape_of(const Outline *e)
 }
 
 /* The sum over all lines that the outline meets. */
-static inline RetexFloat4 sum_dense(const Lines *lines, const Outline *e)
+static RetexFloat4 sum_dense(const Lines *lines, const Outline *e)
 {
     Strip strip;
     Chords chords;
@@ -414,7 +411,7 @@ static inline RetexFloat4 sum_dense(const Lines *lines, const Outline *e)
 
 /* The sum over some lines of a long outline, each of which stands for several. A step without a common factor with the
  * number of lines visits all lines of a repeating axis. */
-static inline RetexFloat4 sum_sparse(const Lines *lines, const Outline *e)
+static RetexFloat4 sum_sparse(const Lines *lines, const Outline *e)
 {
     RetexFloat4 sum = {0, 0, 0, 0};
     const Shape shape = shape_of(e);
@@ -446,7 +443,7 @@ static inline RetexFloat4 sum_sparse(const Lines *lines, const Outline *e)
 
 /* On the coarsest level, for an axis that does not repeat: an outline much larger than the image covers mostly the
  * border, and is shrunk together with its distance. Returns the factor by which the image's share grows. */
-static inline double shrink_outline(const Lines *lines, Outline *e)
+static double shrink_outline(const Lines *lines, Outline *e)
 {
     double filled = 1;
     if (e->length > MAX_LENGTH) {
@@ -474,10 +471,10 @@ typedef struct LevelPlace {
     int number, box, flat[2];
     const RetexTextureLevel *level;
     double at[2]; /* in the level's texels, x and y */
-    RetexLevelCovariance rest;
+    LevelCovariance rest;
 } LevelPlace;
 
-static inline LevelPlace place_footprint(const RetexTexture *texture, const RetexTexelFootprint *f)
+static LevelPlace place_footprint(const RetexTexture *texture, const TexelFootprint *f)
 {
     LevelPlace place;
     const RetexTextureLevel *image = &texture->levels[0];
@@ -495,7 +492,7 @@ static inline LevelPlace place_footprint(const RetexTexture *texture, const Rete
 }
 
 /* The mean over an outline on its level, premultiplied. */
-static inline void average_outline(const RetexTexture *texture, const LevelPlace *place, Outline *e, int turned,
+static void average_outline(const RetexTexture *texture, const LevelPlace *place, Outline *e, int turned,
                                    float rgba[4])
 {
     const RetexTextureLevel *level = place->level;
@@ -514,4 +511,49 @@ static inline void average_outline(const RetexTexture *texture, const LevelPlace
     memcpy(rgba, &sum, sizeof sum);
 }
 
-#endif
+void filter_texels_disc(const RetexTexture *texture, const TexelFootprint *footprint, float rgba[4])
+{
+    const LevelPlace place = place_footprint(texture, footprint);
+    int turned;
+    Outline e = find_ellipse(&place.rest, place.flat, &turned);
+    average_outline(texture, &place, &e, turned, rgba);
+}
+
+/* ---- parallelograms ----
+ *
+ * The level is that of the ellipse with the same covariance, but the parallelogram does not shrink by the variance of
+ * the level's texels: those of neighbouring pixels, and of the quarters of a pixel, adjoin. What blur takes from one it
+ * gives to the next, while shrunk ones would leave gaps. */
+
+#define LEAST_LENGTH 1e-3 /* texels, of the longer axis along */
+
+/* The outline of axes over lines: [0] along, [1] across. */
+static Outline find_outline(const double along[2], const double across[2])
+{
+    const int longer = fabs(along[1]) > fabs(along[0]);
+    const double sign[2] = {along[0] < 0 ? -1 : 1, along[1] < 0 ? -1 : 1};
+    double a = fabs(along[longer]), b = fabs(along[!longer]);
+    a = a > LEAST_LENGTH ? a : LEAST_LENGTH;
+    Outline e = {
+        .straight = 1, .length = (a + b) / 2, .inner = (a - b) / 2, .slope = sign[longer] * across[longer] / a};
+    e.side = (sign[!longer] * across[!longer] - e.slope * b) / 2;
+    e.half = fabs(e.side);
+    return e;
+}
+
+void filter_texels_parallelogram(const RetexTexture *texture, const TexelFootprint *footprint,
+                                        const double sides[2][2], float rgba[4])
+{
+    const LevelPlace place = place_footprint(texture, footprint);
+    double along[2], across[2];
+    int turned;
+    (void)find_ellipse(&place.rest, place.flat, &turned);
+    for (int k = 0; k < 2; k++) {
+        along[k] = sides[k][!turned] / place.level->scale[!turned];
+        across[k] = sides[k][turned] / place.level->scale[turned];
+    }
+    Outline e = find_outline(along, across);
+    if (place.flat[0] || place.flat[1]) /* all texels across are one */
+        e.slope = e.side = e.half = 0;
+    average_outline(texture, &place, &e, turned, rgba);
+}
