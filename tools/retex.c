@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/beside.h"
 #include "common/cli.h"
 
 #include <retex/nearest.h>
@@ -29,18 +30,7 @@ static const char *const order[] = {"try",    "import", "render", "denoise", "sa
 static const int norder = sizeof order / sizeof *order;
 
 static Cli cli = {.tool = "retex"};
-
-/* The folder of this program, or "" if that is not known. */
-static const char *own_folder(void)
-{
-    static char folder[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", folder, sizeof folder - 1);
-    folder[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = 0;
-    return folder;
-}
+static char folder[PATH_MAX]; /* of this program, where the others stand */
 
 static int rank_of(const char *name)
 {
@@ -59,29 +49,29 @@ static int compare_commands(const void *a, const void *b)
 /* The programs retex-NAME beside this one. */
 static void find_commands(Commands *commands)
 {
-    DIR *folder = opendir(own_folder());
+    DIR *list = opendir(folder);
     commands->count = 0;
-    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+    for (struct dirent *entry; list && (entry = readdir(list));) {
         const char *name = entry->d_name + 6;
         struct stat info;
         if (strncmp(entry->d_name, "retex-", 6) != 0 || !*name || strlen(name) >= RETEX_NEAREST_MAX ||
-            strchr(name, '.') || fstatat(dirfd(folder), entry->d_name, &info, 0) || !S_ISREG(info.st_mode) ||
+            strchr(name, '.') || fstatat(dirfd(list), entry->d_name, &info, 0) || !S_ISREG(info.st_mode) ||
             !(info.st_mode & 0111) || commands->count == COMMANDS_MAX)
             continue;
         strcpy(commands->names[commands->count++], name);
     }
-    if (folder)
-        closedir(folder);
+    if (list)
+        closedir(list);
     qsort(commands->names, (size_t)commands->count, sizeof *commands->names, compare_commands);
 }
 
 /* Become retex-NAME with these arguments, the first of which is replaced; returns if there is no such program. */
 static void become(const char *name, char **argv)
 {
-    char path[2 * PATH_MAX], *tool = path + strlen(own_folder()) + 1;
+    char path[2 * PATH_MAX], *tool = path + strlen(folder) + 1;
     if (!*name || strchr(name, '/'))
         return;
-    snprintf(path, sizeof path, "%s/retex-%s", own_folder(), name);
+    snprintf(path, sizeof path, "%s/retex-%s", folder, name);
     argv[0] = tool;
     execv(path, argv);
     if (errno == ENOENT)
@@ -96,8 +86,8 @@ static void read_about(const char *name, char *text, int size)
     char command[2 * PATH_MAX], *end;
     FILE *answer = NULL;
     text[0] = 0;
-    snprintf(command, sizeof command, "'%s/retex-%s' --complete 2>/dev/null </dev/null", own_folder(), name);
-    if (!strchr(own_folder(), '\'') && !strchr(name, '\''))
+    snprintf(command, sizeof command, "'%s/retex-%s' --complete 2>/dev/null </dev/null", folder, name);
+    if (!strchr(folder, '\'') && !strchr(name, '\''))
         answer = popen(command, "r");
     if (answer && !fgets(text, size, answer))
         text[0] = 0;
@@ -151,7 +141,6 @@ static _Noreturn void unknown_command(const char *name)
 /* Show a page of the manual that lies beside the programs, as installed or in the source's tree. */
 static void show_page(const char *page)
 {
-    const char *folder = own_folder();
     for (int section = 1; section < 9; section++)
         for (int place = 0; place < 3; place++) {
             char path[2 * PATH_MAX];
@@ -204,6 +193,7 @@ static int complete(int argc, char **argv)
 int main(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "--help";
+    beside_folder(folder);
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)
         return cli_close(&cli, print_help());
     if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
