@@ -444,6 +444,7 @@ static void import_to(const Cli *cli, Request *r)
     RetexError err = {0};
     take_name(cli, folder, name);
     const int there = open_folder(cli, folder, r->force);
+    import->looks = isnan(r->exposure);
     begin_folder(cli, folder);
     import->folder = unfinished;
     import->name = name;

@@ -102,7 +102,9 @@ def judge_range(path):
     return 'within the range' if lit > .9 and .05 < np.median(picture) < .5 else f'{round(10 * lit)} tenths within the range'
 
 
-if len(sys.argv) > 2:
+if len(sys.argv) > 2 and sys.argv[1] == 'size':
+    print(oiio.ImageBuf(sys.argv[2]).spec().width, 'pixels wide')
+elif len(sys.argv) > 2:
     print(judge_range(sys.argv[2]))
 elif len(sys.argv) > 1:
     print(judge(sys.argv[1]))

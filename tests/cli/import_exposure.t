@@ -87,3 +87,23 @@ $ alone/retex-import --max-memory 3G --max-time 20 dim.gltf -f -o dim 2>&1 | gre
 > retex-import: warning: no look at the scene: its scene cannot be rendered
 $ cat seen.txt
 > --safe --accept-damaged -q --size 96x72 --spp 8 --aov depth,reflectance -o .look.exr --max-time 20.000 --max-memory 3072M --max-pixels 268435456 -- dim.pov
+
+# It is at small copies of large pictures, by which no more than time is lost; the scene gets them as they are.
+$ cp "$SCENES/textures/damask.jpg" large.jpg && printf 'newmtl m\nmap_Kd large.jpg\n' >pictured.mtl
+$ printf '%s\n' 'mtllib pictured.mtl' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'vt 0 0' 'vt 1 0' 'vt 0 1' 'usemtl m' 'f 1/1 2/2 3/3' >pictured.obj
+$ printf '%s\n' '#!/bin/sh' 'exec >seen.txt; for scene; do :; done; cd "${scene%/*}"; ls -A . textures' \
++     "/usr/bin/python3 '$TESTS/import_exposure.py' size textures/Large.jpg" >alone/retex-render
+$ alone/retex-import -q pictured.obj -o pictured 2>&1 | grep -o 'no look'; cat seen.txt; ls -A pictured
+> no look
+> .:
+> pictured-meshes.inc
+> pictured.pov
+> textures
+>
+> textures:
+> Large.jpg
+> 128 pixels wide
+> pictured-meshes.inc
+> pictured.pov
+> textures
+$ cmp large.jpg pictured/textures/Large.jpg

@@ -213,6 +213,17 @@ static int write_scene(Import *import, RetexError *err)
     return code ? code : closed;
 }
 
+/* Without it, the look is at pictures as they are. */
+static void make_look_folder(const ImportOptions *options)
+{
+    static const char *const folders[] = {LOOK_FOLDER, LOOK_FOLDER "/textures"};
+    for (int i = 0; i < 2; i++) {
+        char path[PATH_MAX];
+        if (snprintf(path, sizeof path, "%s/%s", options->folder, folders[i]) < (int)sizeof path)
+            mkdir(path, 0777);
+    }
+}
+
 static void tell_summary(const Import *import)
 {
     int materials = 0, meshes = 0;
@@ -236,6 +247,8 @@ int import_model(const ImportOptions *options, RetexError *err)
     snprintf(folder, sizeof folder, "%s/textures", options->folder);
     if (!code && mkdir(folder, 0777) != 0)
         code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
+    if (!code && own.looks)
+        make_look_folder(&own);
     if (!code)
         code = assimp_read(&import, err);
     if (!code)

@@ -1,6 +1,7 @@
 /* See look.h. */
 #include "import/look.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -10,18 +11,53 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <retex/retex.h>
 
+#include "common/beneath.h"
 #include "common/beside.h"
+#include "common/output_folder.h"
 #include "import/base/look_text.h"
 #include "import/meter.h"
 
 #define PICTURE ".look.exr"
 #define MOST_LAMPS 8 /* times the light of a room is added for windows that are not white */
 enum { MOST_STOPS = 14, WHY_SIZE = 512 };
+
+/* ---- the folder ---- */
+
+/* Link what is there into another folder, but for what that has by the same name. Both are closed. */
+static int link_files(int from, int to)
+{
+    DIR *list = from < 0 ? NULL : fdopendir(from);
+    int is_done = list && to >= 0;
+    for (const struct dirent *entry; is_done && (entry = readdir(list));) {
+        struct stat info;
+        if (fstatat(from, entry->d_name, &info, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(info.st_mode))
+            is_done = linkat(from, entry->d_name, to, entry->d_name, 0) == 0 || errno == EEXIST;
+    }
+    if (list)
+        closedir(list);
+    if (to >= 0)
+        close(to);
+    return is_done;
+}
+
+static int open_folder(int top, const char *name)
+{
+    return beneath_open(top, name, O_RDONLY | O_DIRECTORY, 0);
+}
+
+/* The scene in a folder of its own, with small copies of its pictures: its text is the same file. -1: it cannot be. */
+static int open_small(int folder)
+{
+    const int is_linked = link_files(open_folder(folder, ""), open_folder(folder, LOOK_FOLDER)) &&
+                          link_files(open_folder(folder, "textures"), open_folder(folder, LOOK_FOLDER "/textures"));
+    return is_linked ? open_folder(folder, LOOK_FOLDER) : -1;
+}
 
 /* ---- the picture ---- */
 
@@ -222,10 +258,9 @@ static int balance_windows(Look *look, const LookParams *params, Meter *seen, Re
     return code;
 }
 
-int look_at(Look *look, const LookParams *params, RetexError *err)
+static int look_and_choose(Look *look, const LookParams *params, RetexError *err)
 {
     Meter seen;
-    memset(look, 0, sizeof *look);
     int code = see(params, &seen, err);
     if (code)
         return code;
@@ -243,4 +278,19 @@ int look_at(Look *look, const LookParams *params, RetexError *err)
         return code;
     look->exposure = fmax(meter_whole_stops(&seen), -RETEX_EXPOSURE_MAX);
     return look_expose(params, look->exposure, err);
+}
+
+int look_at(Look *look, const LookParams *params, RetexError *err)
+{
+    LookParams small = *params;
+    char path[PATH_MAX];
+    const int folder = open_small(params->folder);
+    small.folder = folder >= 0 ? folder : params->folder;
+    memset(look, 0, sizeof *look);
+    const int code = look_and_choose(look, &small, err);
+    if (folder >= 0)
+        close(folder);
+    path_of(params, LOOK_FOLDER, "", path);
+    output_remove_folder(path);
+    return code;
 }

@@ -3,6 +3,7 @@
 #ifndef RETEX_IMPORT_LOOK_TEXT_H
 #define RETEX_IMPORT_LOOK_TEXT_H
 
+#define LOOK_FOLDER ".look" /* in the scene's folder: small copies of its pictures, by the same names */
 #define LOOK_EXPOSURE "retex_exposure "
 #define LOOK_EXPOSURE_FORMAT "%+7.2f"
 #define LOOK_ADDED_SKY "Added_sky"

@@ -27,6 +27,7 @@ typedef struct ImportOptions {
     int is_scaled; /* 1: a scale is asked for */
     double lights; /* factor of all light sources */
     double smooth; /* degrees: edges that are flatter become smooth where a mesh has no normals; 0: none */
+    int looks;     /* 1: a first look at the scene follows, for which there are to be small copies of its pictures */
     int partial; /* 1: the scene is made although images, objects or lights are lost, which is told */
     int safe;           /* as of RetexAccess */
     int accept_damaged; /* 1: damaged pictures are read as far as possible, with a warning */

@@ -14,6 +14,7 @@
 
 #include "common/picture_kind.h"
 #include "import/base/files.h"
+#include "import/base/look_text.h"
 #include "import/base/tell.h"
 #include "import/scene/images.h"
 #include "import/scene/surface.h"
@@ -337,6 +338,44 @@ static int write_png(const Import *import, const RetexImage *image, int has_alph
     return code;
 }
 
+/* Means of what each pixel of the smaller image covers. */
+static void shrink(const RetexImage *from, RetexImage *to)
+{
+    const size_t channels = (size_t)from->channels;
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++) {
+            const int x0 = x * from->width / to->width, x1 = (x + 1) * from->width / to->width;
+            const int y0 = y * from->height / to->height, y1 = (y + 1) * from->height / to->height;
+            float *mean = to->pixels + retex_image_index(to, x, y);
+            for (int j = y0; j < y1; j++)
+                for (int i = x0; i < x1; i++)
+                    for (size_t k = 0; k < channels; k++)
+                        mean[k] += from->pixels[retex_image_index(from, i, j) + k] / (float)((x1 - x0) * (y1 - y0));
+        }
+}
+
+/* A copy for the first look at the scene, which has some thousand pixels: to read pictures of 2K would take longer than
+ * all else of it. Where it cannot be made, the look is at the picture as it is. */
+static void write_small(const Import *import, const RetexImage *image, const char *file, const char *colorspace)
+{
+    enum { SIDE = 128 };
+    RetexImage small = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    char path[PATH_MAX], made[PATH_MAX + 4];
+    params.colorspace = colorspace;
+    const char *keyword = images_keyword(file);
+    const int is_kept = strcmp(keyword, "png") != 0 && strcmp(keyword, "jpeg") != 0; /* it may be brighter than white */
+    if (!import->options->looks || is_kept || image->width < 2 * SIDE || image->height < 2 * SIDE ||
+        snprintf(path, sizeof path, "%s/" LOOK_FOLDER "/%s", import->options->folder, file) >= (int)sizeof path ||
+        retex_image_alloc(&small, SIDE, SIDE, image->channels, NULL))
+        return;
+    shrink(image, &small);
+    snprintf(made, sizeof made, "%s.png", path);
+    if (retex_image_write(&small, made, &params, 1, NULL) == RETEX_OK)
+        rename(made, path);
+    retex_image_free(&small);
+}
+
 /* ---- files of the scene ---- */
 
 /* A name for the copy, of the source's last part. */
@@ -379,6 +418,7 @@ static int make_image(Import *import, const ImageUse *use, ImageFile *image, Byt
         return is_fatal(code) ? code : is_missing(import, image, use->source, &why);
     }
     if (ending && !changes) {
+        write_small(import, &pixels, image->file, NULL);
         retex_image_free(&pixels);
         if (snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
             return retex_fail(err, RETEX_EIO, "the folder's name is too long");
@@ -389,6 +429,8 @@ static int make_image(Import *import, const ImageUse *use, ImageFile *image, Byt
         code = write_png(import, &pixels,
                          (alpha || use->opacity || use->opacity_factor != 1) && use->alpha != ALPHA_IGNORE, image->file,
                          err);
+    if (!code)
+        write_small(import, &pixels, image->file, NULL);
     retex_image_free(&pixels);
     return code;
 }
@@ -526,6 +568,8 @@ static int write_numbers(Import *import, const char *source, const Remake *remak
         code = retex_fail(err, RETEX_EIO, "the folder's name is too long");
     if (!code)
         code = retex_image_write(&made, path, &params, 1, err);
+    if (!code)
+        write_small(import, &made, image->file, params.colorspace);
     retex_image_free(&pixels);
     retex_image_free(&made);
     return code;
