@@ -10,7 +10,7 @@ $ for m in named unnamed empty same alike numbers; do
 # They light the scene, and can be chosen by name before number.
 $ retex-import --exposure 0 -v numbers.gltf --camera 1 -o one
 ! retex-import: camera 3 of 3 is used, Camera_1; --camera takes another one
-! retex-import: 48 of 48 other views show more than Camera_1
+! retex-import: 64 of 64 other views show more than Camera_1
 ! retex-import: other views: View_2 from outside, View_3 from outside, View_4 from outside; --camera of retex-render takes one
 ! retex-import: 1 material, 1 mesh, 1 object, 2 triangles
 ! retex-import: wrote one/one.pov

@@ -157,6 +157,7 @@ def write_models():
     gltf('hidden.gltf', faces + tray + hidden, emission=('Lamp',))
     gltf('camera.gltf', faces, camera='inside')
     gltf('blind.gltf', faces, camera='eye', place=(3.6, 1.2, .05))  # a wall is before it
+    gltf('behind.gltf', faces, camera='eye', place=(2.5, 1.2, 9))  # outside of a closed room
     gltf('cm.gltf', faces, 100)
     gltf('toy.gltf', faces, 3)
 

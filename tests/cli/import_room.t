@@ -146,11 +146,14 @@ $ retex-import --exposure 0 -f -q --camera auto camera.gltf -o x && grep '^camer
 > camera { Camera_inside }
 $ retex-import --exposure 0 -f -q --camera 1 camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }
-# One that sees a wall alone is not used, unless it is asked for. How good one is, against all other views.
+# One that sees a wall alone is not used, even from afar, unless it is asked for. How good one is, against all other views.
 $ retex-import --exposure 0 blind.gltf -o blind 2>&1 | grep 'the camera' && judge view blind room && grep -c '^#declare Camera_eye' blind/blind.pov
 > retex-import: the camera Camera_eye sees nothing, or a wall before it; --camera Camera_eye takes it all the same
 > a view
 > 1
+$ retex-import --exposure 0 behind.gltf -o behind 2>&1 | grep -o 'the camera .* sees nothing' && judge view behind room
+> the camera Camera_eye sees nothing
+> a view
 $ retex-import --exposure 0 -f -q --camera Camera_eye blind.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_eye }
 $ retex-import --exposure 0 -f -v camera.gltf -o x 2>&1 | grep -o 'other views show more than.*'

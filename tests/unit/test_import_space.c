@@ -419,15 +419,23 @@ static void the_best_view_is_where_people_stand(void **unused)
                      chair[] = {{{0, .45, 0}, {.5, .5, .5}, 0, 0},   {{0, .5, .45}, {.5, 1, .5}, 0, 0},
                                 {{0, 0, 0}, {.05, .45, .05}, 0, 0},  {{.45, 0, 0}, {.5, .45, .05}, 0, 0},
                                 {{0, 0, .45}, {.05, .45, .5}, 0, 0}, {{.45, 0, .45}, {.5, .45, .5}, 0, 0}},
-                     sculpture[] = {{{0, 0, 0}, {1, 1, 1}, 0, 0}, {{.2, 1, .2}, {.8, 2.4, .8}, 0, 0}};
+                     sculpture[] = {{{0, 0, 0}, {1, 1, 1}, 0, 0}, {{.2, 1, .2}, {.8, 2.4, .8}, 0, 0}},
+                     corner[] = {{{0, 0, 0}, {5, 2.6, 4}, 1, 1u << 1 | 1u << 3 | 1u << 4},
+                                 {{.1, 0, 2.8}, {2.2, .8, 3.9}, 0, 0},
+                                 {{3, 0, 1}, {4.2, .75, 2}, 0, 0}},
+                     flat[] = {{{0, 0, 0}, {9, 2.6, 8}, 1, 1u << 3}, {{-.2, -.01, -.2}, {9.2, 2.6, 8.2}, 0, 1u << 3},
+                               {{4.4, 0, 0}, {4.6, 2.6, 8}, 0, 0},   {{0, 0, 3.9}, {9, 2.6, 4.1}, 0, 0},
+                               {{1, 0, 1}, {3, .75, 2}, 0, 0},       {{6, 0, 5}, {8, .5, 6.5}, 0, 0}},
+                     block[] = {{{0, 0, 0}, {12, 13, 12}, 0, 0}, {{3, 13, 3}, {9, 14, 9}, 0, 0}};
     static const struct {
         const Box *boxes;
         int count;
         ViewsFrom from;
         double floor;
     } models[] = {
-        {closed, 4, VIEWS_INSIDE, .08}, {ell, 5, VIEWS_INSIDE, .08},  {open_side, 3, VIEWS_EITHER, .05},
-        {house, 5, VIEWS_INSIDE, .08},  {chair, 6, VIEWS_OUTSIDE, 0}, {sculpture, 2, VIEWS_OUTSIDE, 0},
+        {closed, 4, VIEWS_INSIDE, .08},  {ell, 5, VIEWS_INSIDE, .08},  {open_side, 3, VIEWS_EITHER, .05},
+        {house, 5, VIEWS_INSIDE, .08},   {chair, 6, VIEWS_OUTSIDE, 0}, {sculpture, 2, VIEWS_OUTSIDE, 0},
+        {corner, 3, VIEWS_OUTSIDE, .03}, {flat, 6, VIEWS_EITHER, .03}, {block, 2, VIEWS_OUTSIDE, 0},
     };
     (void)unused;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
@@ -474,6 +482,23 @@ static void the_score_is_of_what_is_shown(void **unused)
         Content other = plain;
         *(double *)((char *)&other + changes[i].at) = changes[i].value;
         assert_true(changes[i].sign * (content_score(&other) - score) > 0.01);
+    }
+    /* some floor is worth more than more of it; a plan from above and the inside of a solid are worse than they seem */
+    static const struct {
+        size_t at;
+        double values[3]; /* from the second to the third one the score changes by more than it does from the first */
+    } bends[] = {{offsetof(Content, floor), {.1, .06, .02}},
+                 {offsetof(Content, tilt), {.35, .5, .65}},
+                 {offsetof(Content, back), {.6, .75, .9}},
+                 {offsetof(Content, open), {.04, .08, .12}}};
+    for (size_t i = 0; i < sizeof bends / sizeof *bends; i++) {
+        double scores[3];
+        for (int k = 0; k < 3; k++) {
+            Content bent = plain;
+            *(double *)((char *)&bent + bends[i].at) = bends[i].values[k];
+            scores[k] = content_score(&bent);
+        }
+        assert_true(scores[1] - scores[2] > scores[0] - scores[1] + 0.1);
     }
     /* a little of what is no harm */
     Content other = plain;

@@ -214,10 +214,11 @@ static int write_place(Import *import, const Framing *framing, FILE *out, RetexE
     return code;
 }
 
-/* Within a wall, or before one; or where there is nothing at all. */
+/* Within a wall or another thing, or before one; or where there is nothing at all. */
 static int sees_nothing(const Content *content)
 {
-    return content->nothing > 0.995 || (content->near > 0.9 && content->things < 3);
+    return content->nothing > 0.995 || (content->near > 0.9 && content->things < 3) ||
+           (content->back > 0.5 && content->things < 5);
 }
 
 int framing_write_own(Import *import, const char *name, const View *view, FILE *out, RetexError *err)

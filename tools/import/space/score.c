@@ -189,14 +189,15 @@ static const Term terms[] = {
     TERM(detail, 1.0, 1, 7),       TERM(materials, 0.7, 0, 3.5),
     TERM(extent, 1.8, 0, 0.3), /* of the whole room, */
     TERM(furniture, 0.8, 0, 0.15), TERM(middle, 0.8, 0, 0.7),
-    TERM(depth, 0.3, 0, 1),        TERM(floor, 0.8, 0, 0.2),    /* which has a floor and walls; */
-    TERM(wall, 0.4, 0, 0.15),      TERM(ceiling, -0.6, 0.2, 1), /* little of the picture is lost, */
-    TERM(nothing, -0.9, 0.15, 1),  TERM(back, -1.5, 0, 1),
-    TERM(near, -4, 0, 1), /* nothing stands in the way, */
+    TERM(depth, 0.3, 0, 1),        TERM(floor, 0.8, 0, 0.2), /* which has a floor, at least some of it, and walls; */
+    TERM(floor, 1.0, 0.01, 0.06),  TERM(wall, 0.4, 0, 0.15),
+    TERM(ceiling, -0.6, 0.2, 1),                           /* little of the picture is lost, */
+    TERM(nothing, -0.9, 0.15, 1),  TERM(back, -1.5, 0, 1), /* above all if one is not within a solid; */
+    TERM(back, -1.2, 0.8, 1),      TERM(near, -4, 0, 1),   /* nothing stands in the way, */
     TERM(obstacle, -1.2, 0, 0.5),  TERM(largest, -1.2, 0.12, 0.5),
-    TERM(cut, -1.0, 0, 1),         TERM(tilt, -0.4, 0.3, 1), /* the horizon is level */
-    TERM(open, -2, 0.1, 0.6),                                /* one is in a room, or outside of it, */
-    TERM(behind, -0.6, 0, 1),                                /* and things have their front there */
+    TERM(cut, -1.0, 0, 1),         TERM(tilt, -0.4, 0.3, 1),  /* the horizon is level, and it is no plan from above; */
+    TERM(tilt, -0.4, 0.55, 0.7),   TERM(open, -3, 0.08, 0.2), /* one is in a room, or outside of one that is open, */
+    TERM(behind, -0.6, 0, 1),                                 /* and things have their front there */
 };
 
 double content_score(const Content *content)

@@ -14,7 +14,7 @@ enum { COLUMNS = 72, ROWS = 16, LOWEST = -45 /* degrees */, STEP = 360 / COLUMNS
 enum { MOST_PLACES = 96, AZIMUTHS = 36, SIDES = 16, SMALL_WIDTH = 16, SMALL_HEIGHT = 12 };
 enum { FINALISTS = 40, ANGLE = 74 /* inside, degrees */ };
 
-static const double pitches[] = {-12, -5}, elevations[] = {7, 20, 33}; /* degrees */
+static const double pitches[] = {-12, -5}, elevations[] = {7, 20, 33, 45}; /* degrees */
 
 enum { PITCHES = sizeof pitches / sizeof *pitches, ELEVATIONS = sizeof elevations / sizeof *elevations };
 
