@@ -534,6 +534,12 @@ static void contents_are_counted(void **unused)
     assert_true(fabs(c.extent - sqrt(1 - 0.2 * 0.2) / 10) < 1e-6); /* of 16 at -1 and 24 at 1 */
     picture->samples[3].kind = PICTURE_FURNITURE, picture->samples[3].tag = 1;
     assert_true(fabs(picture_content(picture, materials).cut - 9 / 64.0) < 1e-12);
+    for (int near = 0; near < 2; near++) { /* much nearer than the rest, or not */
+        for (int i = 0; i < 64; i++)
+            if (picture->samples[i].kind == PICTURE_FURNITURE)
+                picture->samples[i].distance = near ? 2.4f : 2.8f;
+        assert_true(fabs(picture_content(picture, materials).obstacle - near * 17 / 64.0) < 1e-12);
+    }
     free(picture);
 }
 

@@ -137,7 +137,7 @@ static void add_depth(const Picture *picture, Content *c)
     for (int i = 0; i < all; i++) {
         const PictureSample *s = &picture->samples[i];
         const int stands = s->kind != PICTURE_NOTHING && s->kind != PICTURE_FLOOR;
-        c->obstacle += stands && (double)s->distance < 0.5 * middle ? 1.0 / all : 0;
+        c->obstacle += stands && (double)s->distance < 0.65 * middle ? 1.0 / all : 0;
     }
 }
 
