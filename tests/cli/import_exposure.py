@@ -53,7 +53,7 @@ def write(name, size=None, strength=0, intensity=None, camera=(-.13, 0, 0, .9915
         json.dump(model, out)
 
 
-def write_room(name, eye=2.5, is_open=False):
+def write_room(name, eye=2.5, is_open=False, grey=.4):
     """A room of 6 x 6 m, 3 m high, whose far wall has an opening of half of it, before the eye; or without the wall that
     is before that."""
     x, z, y, w, low, high = 3, 3, 3, 2.2, .6, 2.6
@@ -74,7 +74,7 @@ def write_room(name, eye=2.5, is_open=False):
                              {'buffer': 0, 'byteOffset': len(corners), 'byteLength': len(indices)}],
              'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4 * len(quads), 'type': 'VEC3'},
                            {'bufferView': 1, 'componentType': 5123, 'count': 6 * len(quads), 'type': 'SCALAR'}],
-             'materials': [{'pbrMetallicRoughness': {'baseColorFactor': [.4, .4, .4, 1]}, 'doubleSided': True}],
+             'materials': [{'pbrMetallicRoughness': {'baseColorFactor': [grey, grey, grey, 1]}, 'doubleSided': True}],
              'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1, 'material': 0}]}]}
     with open(name + '.bin', 'wb') as out:
         out.write(corners + indices)
@@ -111,6 +111,7 @@ elif len(sys.argv) > 1:
 else:
     write_room('room')
     write_room('stage', 10, True)
+    write_room('dark_stage', 14, True, .12)
     write('speck', .02, 3)
     write('panel', 2, 20)
     write('out', intensity=0)

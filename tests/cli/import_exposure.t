@@ -72,7 +72,12 @@ $ render room >/dev/null && look range room.exr
 # Before a bright sky of the user's, the exposure gives way to it somewhat.
 $ retex-import -q --sky "$SCENES/textures/damask.jpg" stage.gltf -o stage
 $ render stage >/dev/null && look range stage.exr
-> 7 tenths within the range
+> 8 tenths within the range
+
+# Before the soft sky that is added, dark things are dark, and it is not white.
+$ retex-import -q dark_stage.gltf -o dark_stage
+$ render dark_stage >/dev/null && look range dark_stage.exr
+> 10 tenths within the range
 
 # Without retex-render beside it, the scene is as the model has it.
 $ mkdir alone && cp "$(command -v retex-import)" alone

@@ -12,6 +12,7 @@
 #define BRIGHT_CARD 0.45
 #define DARKEST 0.0039  /* 5 % of the range of sRGB */
 #define MOST_DARKER 1.5 /* stops by which a picture is darker than its surfaces want, for what else is in it */
+#define MOST_DARKER_THINGS 3.0 /* the same of things before a backdrop, which is a third of the picture or more */
 enum { SIDE = 4 };      /* of a block, pixels */
 
 static double luminance_at(const RetexImage *image, int x, int y)
@@ -102,7 +103,8 @@ double meter_lit(const Meter *meter, double stops)
 double meter_whole_stops(const Meter *meter)
 {
     double best = meter->stops, most = meter_lit(meter, best);
-    for (double less = 0.1; less <= MOST_DARKER && most < METER_ENOUGH_LIT; less += 0.1) {
+    const double darker = 3 * meter->empty > METER_WIDTH * METER_HEIGHT ? MOST_DARKER_THINGS : MOST_DARKER;
+    for (double less = 0.1; less <= darker && most < METER_ENOUGH_LIT; less += 0.1) {
         const double lit = meter_lit(meter, meter->stops - less);
         if (lit > most + 0.01)
             best = meter->stops - less, most = lit;
