@@ -116,6 +116,7 @@ else:
     write('panel', 2, 20)
     write('out', intensity=0)
     write('lamp', intensity=683 * 20)
+    write('pale', intensity=220)
     write('dim', intensity=.5)
     write('bright', intensity=683 * 1e5)
     write('label', 1, .5)

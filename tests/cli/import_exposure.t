@@ -23,6 +23,11 @@ $ grep -c 'retex_exposure *+0.00' panel/panel.pov label/label.pov
 > panel/panel.pov:1
 > label/label.pov:1
 
+# What is less than 1.5 stops too bright gets an exposure if a tenth of it is white.
+$ import pale; render pale
+> exposure of -
+> pale: as a floor
+
 # Where most of what is seen is dark, light is added; a camera that looks away is not taken.
 $ import spot
 > retex-import: the light of the model reaches 0 % of what is seen: light is added
