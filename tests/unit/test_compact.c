@@ -145,6 +145,15 @@ static void the_picture_is_no_term(void **state)
     retex_set_close(&set);
 }
 
+static int make_clusters(RetexCompactClusters *clusters, const RetexCompactLight *light, const RetexCompactKind *kind,
+                         int scale, int nthreads, RetexError *err)
+{
+    int code = retex_compact_clusters_begin(clusters, light, kind, scale, err);
+    if (!code)
+        retex_compact_clusters_rows(clusters, light, kind, 0, nthreads);
+    return code ? code : retex_compact_clusters_end(clusters, light, kind, nthreads, err);
+}
+
 /* Nor are corrections: footprints lie where light is, whatever sign and size these have. */
 static void corrections_move_no_footprints(void **state)
 {
@@ -162,7 +171,7 @@ static void corrections_move_no_footprints(void **state)
         int kind = 0;
         while (light.kinds[kind].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             kind++;
-        test_must(retex_compact_clusters_make(&clusters[k], &light, &light.kinds[kind], 4, 1, &err), &err);
+        test_must(make_clusters(&clusters[k], &light, &light.kinds[kind], 4, 1, &err), &err);
         retex_compact_light_close(&light);
         if (k)
             break;
@@ -313,7 +322,7 @@ static void merged_clusters_have_all_their_light(void **state)
     assert_null(unknown);
     while (light.kinds[sharp].kind != RETEX_FOOTPRINT_SHARP)
         sharp++;
-    test_must(retex_compact_clusters_make(&clusters, &light, &light.kinds[sharp], SCALE, 1, &err), &err);
+    test_must(make_clusters(&clusters, &light, &light.kinds[sharp], SCALE, 1, &err), &err);
     assert_int_equal(clusters.count, CLUSTERS);
     for (int by = 0; by < HIGH / SCALE; by++)
         for (int bx = 16 / SCALE; bx < WIDE / SCALE; bx++) {

@@ -388,30 +388,6 @@ static void scales_are_for_each_single_lamp(void **state)
     }
 }
 
-static float of_each_pixel(int x, int y)
-{
-    return (x + y) % 2 ? 0.06f : -0.06f;
-}
-
-static float waves(int x, int y)
-{
-    return 0.08f * cosf((float)x * 0.26f) * cosf((float)y * 0.26f);
-}
-
-/* Each of two gains may lose this much, but not both: that which needs fewer numbers is made finer. */
-static void cheap_gains_are_made_finer_first(void **state)
-{
-    int met[LAMPS], other[LAMPS];
-    (void)state;
-    scales_of_lamps(met, other, of_each_pixel, nothing);
-    assert_true(met[0] == 8 && other[0] == 8);
-    scales_of_lamps(met, other, nothing, waves);
-    assert_true(met[0] == 8 && other[0] == 8);
-    scales_of_lamps(met, other, of_each_pixel, waves);
-    assert_int_equal(met[0], 8);
-    assert_int_equal(other[0], 4);
-}
-
 static double mean_of(const RetexSet *set, int part)
 {
     const RetexImage *im = &set->parts[part].image;
@@ -496,7 +472,7 @@ int main(void)
         cmocka_unit_test(footprints_are_those_of_all_light), cmocka_unit_test(scales_are_for_each_lamp),
         cmocka_unit_test(values_as_rendered_do_not_matter),  cmocka_unit_test(single_lamps_are_gains_of_all_light),
         cmocka_unit_test(packs_hold_gains_of_single_lamps),  cmocka_unit_test(scales_are_for_each_single_lamp),
-        cmocka_unit_test(cheap_gains_are_made_finer_first),  cmocka_unit_test(steps_of_lamps_follow_their_light),
+        cmocka_unit_test(steps_of_lamps_follow_their_light),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

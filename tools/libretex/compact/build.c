@@ -16,14 +16,18 @@
 #include "set/parts.h"
 #include "set/signals.h"
 
+/* What is made of a kind strip by strip, before it becomes parts. */
+typedef struct Made {
+    RetexCompactClusters clusters;
+    RetexImage *sums, *gains; /* of light by lamps; by place (gains.h). Unallocated: there is none */
+} Made;
+
 typedef struct Compaction {
     const RetexCompactLight *light;
     RetexSet *set; /* the new set */
     const RetexCompactScales *scales;
     int nthreads;
-    RetexCompactCache *cache; /* clusters, sums and gains that are made already */
-    int trial;                /* 1: copy from the cache, for other trials; 0: the cache is complete, move from it */
-    RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* trial textures by footprint, if trial is 1 */
+    Made *made; /* by kind */
     RetexFactor factors[RETEX_COMPACT_KINDS],
         interreflected[RETEX_COMPACT_KINDS];  /* by kind: factors of single-hit and of interreflected light */
     RetexFactor mixtures[RETEX_MIXTURES_MAX]; /* by mixture of interreflections in the old set: the new factor */
@@ -140,104 +144,12 @@ static int move_image(RetexSet *set, RetexImage *image, const char *letters, Ret
     return code;
 }
 
-/* ---- the cache that trials share ---- */
-
-static int step_of(int scale)
-{
-    int step = 0;
-    while (1 << step < scale)
-        step++;
-    return step;
-}
-
-/* Copy clusters of the cache, so that a set can own them. */
-static int copy_clusters(RetexCompactClusters *to, const RetexCompactClusters *from, RetexError *err)
-{
-    int code = retex_image_copy(&to->albedo, &from->albedo, err);
-    to->count = from->count, to->whole = from->whole;
-    for (int k = 0; k < from->count && !code; k++) {
-        code = retex_image_copy(&to->uv[k], &from->uv[k], err);
-        if (!code)
-            code = retex_image_copy(&to->spread[k], &from->spread[k], err);
-        if (!code)
-            code = retex_image_copy(&to->weight[k], &from->weight[k], err);
-        if (!code && from->interreflected[k].pixels)
-            code = retex_image_copy(&to->interreflected[k], &from->interreflected[k], err);
-    }
-    return code;
-}
-
-static RetexCompactClusters *cached_clusters(const Compaction *work, int number)
-{
-    return &work->cache->clusters[number][step_of(work->scales->clusters[number])];
-}
-
-static int make_clusters(RetexCompactClusters *clusters, const Compaction *work, int number, RetexError *err)
-{
-    RetexCompactClusters *kept = cached_clusters(work, number);
-    int code = RETEX_OK;
-    *clusters = (RetexCompactClusters){0};
-    if (!work->trial) {
-        *clusters = *kept;
-        *kept = (RetexCompactClusters){0};
-        return RETEX_OK;
-    }
-    if (!kept->albedo.pixels)
-        code = retex_compact_clusters_make(kept, work->light, &work->light->kinds[number],
-                                           work->scales->clusters[number], work->nthreads, err);
-    if (!code)
-        code = copy_clusters(clusters, kept, err);
-    if (code)
-        retex_compact_clusters_free(clusters);
-    return code;
-}
-
-static int move_or_copy_image(RetexImage *image, const Compaction *work, RetexImage *kept, RetexError *err)
-{
-    if (work->trial)
-        return retex_image_copy(image, kept, err);
-    *image = *kept;
-    *kept = (RetexImage){0};
-    return RETEX_OK;
-}
-
-/* Images in the cache; NULL: no memory. */
-static RetexImage *cached(RetexImage **images, int count, RetexError *err)
-{
-    if (!*images && !(*images = calloc((size_t)count + 1, sizeof **images)))
-        retex_fail(err, RETEX_ENOMEM, "not enough memory for light");
-    return *images;
-}
-
-/* A kind's sums of light, by lamps. */
-static RetexImage *cached_sums(const Compaction *work, int number, RetexError *err)
-{
-    return cached(&work->cache->sums[number], work->light->nlamps, err);
-}
-
-static int make_sum(RetexImage *sum, const Compaction *work, int number, int lamps, RetexError *err)
-{
-    RetexImage *all = cached_sums(work, number, err), *kept = all + lamps;
-    int code = RETEX_OK;
-    if (!all)
-        return RETEX_ENOMEM;
-    if (!kept->pixels)
-        code = retex_compact_sum_light(kept, work->light, &work->light->kinds[number], lamps, work->nthreads, err);
-    return code ? code : move_or_copy_image(sum, work, kept, err);
-}
+/* ---- what is made of a kind ---- */
 
 /* How many terms a kind has at most: see gains.h. */
 static int term_count(const Compaction *work, int number)
 {
     return work->light->nlamps + work->light->kinds[number].ngains[work->scales->mixed[number]];
-}
-
-/* A kind's gains in the cache, by term. */
-static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
-{
-    const RetexCompactMixed mixed = work->scales->mixed[number];
-    return cached(&work->cache->gains[number][step_of(work->scales->gains[number])][mixed], term_count(work, number),
-                  err);
 }
 
 /* Gains of single lamps have scales of their own. */
@@ -249,38 +161,15 @@ static int gain_scale(const Compaction *work, int number, int place)
                                      : work->scales->gains[number];
 }
 
-static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
+static void free_made(Made *made, const RetexCompactLight *light, int places)
 {
-    const RetexImage *sum = &work->set->parts[radiance].image;
-    RetexImage *all = cached_gains(work, number, err), *kept = all + place;
-    int code = RETEX_OK;
-    if (!all)
-        return RETEX_ENOMEM;
-    if (!kept->pixels)
-        code =
-            retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place,
-                                    work->scales->mixed[number], gain_scale(work, number, place), work->nthreads, err);
-    return code ? code : move_or_copy_image(gain, work, kept, err);
-}
-
-void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight *light)
-{
-    for (int i = 0; i < light->nkinds; i++) {
-        for (int j = 0; j < RETEX_COMPACT_STEPS; j++) {
-            retex_compact_clusters_free(&cache->clusters[i][j]);
-            for (int k = 0; k < RETEX_COMPACT_WAVES * RETEX_SHARES_MAX; k++)
-                retex_image_free(&cache->waves[i][j][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
-        }
-        for (int j = 0; j < RETEX_COMPACT_STEPS * RETEX_COMPACT_CHOICES; j++) {
-            const int step = j / RETEX_COMPACT_CHOICES, mixed = j % RETEX_COMPACT_CHOICES;
-            for (int k = 0; cache->gains[i][step][mixed] && k < light->nlamps + light->kinds[i].ngains[mixed]; k++)
-                retex_image_free(&cache->gains[i][step][mixed][k]);
-            free(cache->gains[i][step][mixed]);
-        }
-        for (int k = 0; cache->sums[i] && k < light->nlamps; k++)
-            retex_image_free(&cache->sums[i][k]);
-        free(cache->sums[i]);
-    }
+    retex_compact_clusters_free(&made->clusters);
+    for (int k = 0; k < light->nlamps && made->sums; k++)
+        retex_image_free(&made->sums[k]);
+    for (int k = 0; k < places && made->gains; k++)
+        retex_image_free(&made->gains[k]);
+    free(made->sums);
+    free(made->gains);
 }
 
 /* ---- footprints ---- */
@@ -309,9 +198,6 @@ static int add_cluster(Compaction *work, int number, RetexCompactClusters *clust
                           "share_%s_%s", target, name);
     if (!code)
         code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
-    for (int i = 0; i < RETEX_COMPACT_WAVES && !code && work->trial; i++)
-        work->waves[work->footprints[number][k]][i] =
-            &work->cache->waves[number][step_of(work->scales->clusters[number])][i][k];
     return code;
 }
 
@@ -334,18 +220,15 @@ static int add_mixture(Compaction *work, int number, const int *weights, RetexFa
 static int add_clusters(Compaction *work, int number, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
-    RetexCompactClusters clusters;
+    RetexCompactClusters *clusters = &work->made[number].clusters;
     char target[RETEX_NAME_MAX];
-    int albedo, code = make_clusters(&clusters, work, number, err);
-    if (code)
-        return code;
-    work->counts[number] = clusters.count;
+    int albedo;
+    work->counts[number] = clusters->count;
     retex_target_word(target, work->set->targets[kind->target].name);
-    code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s", target,
-                      retex_footprint_kind_name(kind->kind));
-    for (int k = 0; k < clusters.count && !code; k++)
-        code = add_cluster(work, number, &clusters, k, albedo, err);
-    retex_compact_clusters_free(&clusters);
+    int code = move_image(work->set, &clusters->albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s", target,
+                          retex_footprint_kind_name(kind->kind));
+    for (int k = 0; k < clusters->count && !code; k++)
+        code = add_cluster(work, number, clusters, k, albedo, err);
     if (!code)
         code = add_mixture(work, number, work->weights[number], &work->factors[number], err);
     work->interreflected[number] = work->factors[number];
@@ -422,7 +305,7 @@ static const char *lamps_name(char name[RETEX_NAME_MAX], const RetexCompactLight
 }
 
 /* Make a gain, and a factor of it, of a term that has all others. */
-static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
+static int add_gain(Compaction *work, int number, int place, RetexTerm *term, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
     const char *name = retex_footprint_kind_name(kind->kind);
@@ -431,12 +314,10 @@ static int add_gain(Compaction *work, int number, int radiance, int place, Retex
     char target[RETEX_NAME_MAX], lamps[RETEX_NAME_MAX];
     retex_target_word(target, work->set->targets[kind->target].name);
     lamps_name(lamps, work->light, retex_compact_term_lamps(work->light, kind, mixed, place));
-    RetexImage gain = {0};
-    int part, code = make_gain(&gain, work, number, radiance, place, err);
-    if (!code)
-        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &part, err, "gain_%s_%s%s%s%s", target, name, lamps,
-                          single ? "" : "_", single ? "" : kind->gains[mixed][place - work->light->nlamps].name);
-    retex_image_free(&gain);
+    int part;
+    int code = move_image(work->set, &work->made[number].gains[place], "RGB", RETEX_HALF, &part, err,
+                          "gain_%s_%s%s%s%s", target, name, lamps, single ? "" : "_",
+                          single ? "" : kind->gains[mixed][place - work->light->nlamps].name);
     return code ? code : retex_term_add_image(term, work->set, part, err);
 }
 
@@ -457,7 +338,7 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     for (int k = 0; old && k < old->nfactors && !code; k++)
         code = retex_term_add_factor(&term, new_factor(work, old->factors[k]), err);
     if (!code && with_gain)
-        code = add_gain(work, number, radiance, place, &term, err);
+        code = add_gain(work, number, place, &term, err);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
@@ -481,18 +362,13 @@ static int add_radiance(Compaction *work, int number, int lamps, int *radiance, 
 {
     const RetexCompactLight *light = work->light;
     const RetexCompactKind *kind = &light->kinds[number];
-    RetexImage sum = {0};
     char target[RETEX_NAME_MAX], name[RETEX_NAME_MAX];
     *radiance = -1;
     if (!retex_compact_has_light(light, kind, lamps))
         return RETEX_OK;
     retex_target_word(target, work->set->targets[kind->target].name);
-    int code = make_sum(&sum, work, number, lamps, err);
-    if (!code)
-        code = move_image(work->set, &sum, "RGB", RETEX_HALF, radiance, err, "dep_%s_%s%s", target,
-                          retex_footprint_kind_name(kind->kind), lamps_name(name, light, lamps));
-    retex_image_free(&sum);
-    return code;
+    return move_image(work->set, &work->made[number].sums[lamps], "RGB", RETEX_HALF, radiance, err, "dep_%s_%s%s",
+                      target, retex_footprint_kind_name(kind->kind), lamps_name(name, light, lamps));
 }
 
 static int add_terms(Compaction *work, int number, RetexError *err)
@@ -507,7 +383,7 @@ static int add_terms(Compaction *work, int number, RetexError *err)
         if (!code && radiance >= 0)
             code = add_terms_of(work, number, i, radiance, err);
     }
-    for (int i = 0; i < light->nlamps && !code && all >= 0 && !work->trial; i++)
+    for (int i = 0; i < light->nlamps && !code && all >= 0; i++)
         if (light->lamps[i].alone)
             code = add_terms_of(work, number, i, all, err);
     return code;
@@ -574,37 +450,38 @@ static int copy_corrections(Compaction *work, RetexError *err)
 /* ---- the whole set ---- */
 
 /* Allocate the clusters and gains of a kind. */
-static int begin_kind(const Compaction *work, int number, RetexError *err)
+static int begin_kind(Compaction *work, int number, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
     const RetexCompactKind *kind = &light->kinds[number];
-    int code =
-        retex_compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number], err);
-    RetexImage *gains = cached_gains(work, number, err), *sums = cached_sums(work, number, err);
-    if (code || !gains || !sums)
-        return code ? code : RETEX_ENOMEM;
+    Made *made = &work->made[number];
+    made->sums = calloc((size_t)light->nlamps + 1, sizeof *made->sums);
+    made->gains = calloc((size_t)term_count(work, number) + 1, sizeof *made->gains);
+    if (!made->sums || !made->gains)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for light");
+    int code = retex_compact_clusters_begin(&made->clusters, light, kind, work->scales->clusters[number], err);
     for (int i = 0; i < term_count(work, number) && !code && kind->kind != RETEX_FOOTPRINT_INTERREFLECTION; i++) {
         const int lamps = retex_compact_term_lamps(light, kind, work->scales->mixed[number], i);
         const int alone = light->lamps[lamps].alone;
         const int has_gain =
             alone ? retex_compact_has_light(light, kind, light->all) : retex_compact_has_further(light, kind, lamps);
         if (i == lamps && !alone && retex_compact_has_light(light, kind, lamps))
-            code = retex_image_alloc(&sums[i], light->set->width, light->set->height, 3, err);
+            code = retex_image_alloc(&made->sums[i], light->set->width, light->set->height, 3, err);
         if (!code && has_gain && (i != lamps || retex_compact_has_single(kind, lamps)))
-            code = retex_compact_gain_begin(&gains[i], light, gain_scale(work, number, i), err);
+            code = retex_compact_gain_begin(&made->gains[i], light, gain_scale(work, number, i), err);
     }
     return code;
 }
 
 static int make_rows(void *context, const RetexCompactLight *light, int first, RetexError *err)
 {
-    const Compaction *work = context;
+    Compaction *work = context;
     int code = RETEX_OK;
     for (int i = 0; i < light->nkinds && !code; i++) {
         const RetexCompactKind *kind = &light->kinds[i];
         const RetexCompactMixed mixed = work->scales->mixed[i];
-        RetexImage *sums = cached_sums(work, i, err), *gains = cached_gains(work, i, err);
-        retex_compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
+        RetexImage *sums = work->made[i].sums, *gains = work->made[i].gains;
+        retex_compact_clusters_rows(&work->made[i].clusters, light, kind, first, work->nthreads);
         for (int k = 0; k < light->nlamps; k++)
             if (sums[k].pixels)
                 retex_compact_sum_rows(&sums[k], light, kind, k, first, work->nthreads);
@@ -619,14 +496,14 @@ static int make_rows(void *context, const RetexCompactLight *light, int first, R
     return code;
 }
 
-static int end_kind(const Compaction *work, int number, RetexError *err)
+static int end_kind(Compaction *work, int number, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
     const RetexCompactKind *kind = &light->kinds[number];
     const RetexCompactMixed mixed = work->scales->mixed[number];
-    const RetexImage *sums = cached_sums(work, number, err);
-    RetexImage *gains = cached_gains(work, number, err);
-    int code = retex_compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
+    const RetexImage *sums = work->made[number].sums;
+    RetexImage *gains = work->made[number].gains;
+    int code = retex_compact_clusters_end(&work->made[number].clusters, work->light, kind, work->nthreads, err);
     for (int k = 0; k < term_count(work, number) && !code; k++)
         if (gains[k].pixels) {
             const int lamps = retex_compact_term_lamps(light, kind, mixed, k);
@@ -653,8 +530,9 @@ static int make_kinds(Compaction *work, RetexError *err)
 int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const RetexCompactScales *scales,
                         int nthreads, RetexError *err)
 {
-    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = calloc(1, sizeof *work.cache)};
-    int code = work.cache ? make_kinds(&work, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads};
+    work.made = calloc((size_t)light->nkinds + 1, sizeof *work.made);
+    int code = work.made ? make_kinds(&work, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
     if (!code)
         code = retex_compact_copy_head(&work.set, light->set, err);
     if (!code)
@@ -670,36 +548,9 @@ int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const
         code = add_lamp_shares(&work, err);
     if (!code)
         code = copy_corrections(&work, err);
-    if (work.cache)
-        retex_compact_cache_free(work.cache, light);
-    free(work.cache);
-    if (code)
-        retex_set_close(&work.set);
-    *result = work.set;
-    return code;
-}
-
-int retex_compact_build_kind(RetexSet **result, RetexImage *of[][RETEX_COMPACT_WAVES], const RetexCompactLight *light,
-                             int kind, const RetexCompactScales *scales, RetexCompactCache *cache, int nthreads,
-                             RetexError *err)
-{
-    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .trial = 1, .waves = of};
-    const RetexSet *old = light->set;
-    int code = retex_compact_copy_head(&work.set, old, err);
-    for (int t = 0; t < old->ntargets && !code; t++)
-        work.set->targets[t].original = -1;
-    if (!code && kind < 0)
-        code = copy_kept(&work, err);
-    else if (!code) /* part 0 must be the picture; recombination does not read it, so it is empty */
-        code = retex_set_add_part(work.set, old->parts[0].name, old->parts[0].letters, old->parts[0].type, 0, 0, NULL,
-                                  err);
-    for (int i = 0; i < light->nkinds && !code && kind >= 0; i++)
-        if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
-            code = add_clusters(&work, i, err);
-    if (!code && kind >= 0)
-        code = add_interreflection_mixtures(&work, err);
-    if (!code && kind >= 0)
-        code = add_terms(&work, kind, err);
+    for (int i = 0; i < light->nkinds && work.made; i++)
+        free_made(&work.made[i], light, term_count(&work, i));
+    free(work.made);
     if (code)
         retex_set_close(&work.set);
     *result = work.set;

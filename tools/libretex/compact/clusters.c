@@ -544,16 +544,6 @@ int retex_compact_clusters_end(RetexCompactClusters *clusters, const RetexCompac
     return code;
 }
 
-int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompactLight *light,
-                                const RetexCompactKind *kind, int scale, int nthreads, RetexError *err)
-{
-    int code = retex_compact_clusters_begin(clusters, light, kind, scale, err);
-    if (code)
-        return code;
-    retex_compact_clusters_rows(clusters, light, kind, 0, nthreads);
-    return retex_compact_clusters_end(clusters, light, kind, nthreads, err);
-}
-
 void retex_compact_clusters_free(RetexCompactClusters *clusters)
 {
     for (int k = 0; k < RETEX_SHARES_MAX; k++)

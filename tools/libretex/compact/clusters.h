@@ -9,11 +9,9 @@
 
 /* Merge the clusters of each block, weighted by light, into at most as many as the kind has in a pixel. Blocks without
  * light copy the clusters of a neighbour, because enlarging interpolates between them. Interreflected light has weights
- * of its own on sharp footprints, where textures show every detail, and on broad ones where no noise may be removed. */
-int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompactLight *light,
-                                const RetexCompactKind *kind, int scale, int nthreads, RetexError *err);
-/* The same in strips of rows: light->set has rows of the picture from `first` on, a multiple of the scale except at the
- * end. */
+ * of its own on sharp footprints, where textures show every detail, and on broad ones where no noise may be removed.
+ * That is done in strips of rows: light->set has rows of the picture from `first` on, a multiple of the scale except at
+ * the end. */
 int retex_compact_clusters_begin(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                  const RetexCompactKind *kind, int scale, RetexError *err);
 void retex_compact_clusters_rows(RetexCompactClusters *clusters, const RetexCompactLight *light,

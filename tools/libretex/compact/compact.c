@@ -1,6 +1,6 @@
-/* Makes compact sets: see compact.h. light.h sorts terms and footprints by target and kind. search.h chooses the
- * scales by measuring distortion. For each kind, clusters.h makes new footprints, and gains.h turns its terms into one
- * radiance with gains. build.h puts the new set together. */
+/* Makes compact sets: see compact.h. light.h sorts terms and footprints by target and kind. choose.h chooses the
+ * scales by what detail.h tells of the set. For each kind, clusters.h makes new footprints, and gains.h turns its terms
+ * into one radiance with gains. build.h puts the new set together. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #include <retex/host/set_build.h>
 
 #include "compact/build.h"
+#include "compact/choose.h"
 #include "compact/compact.h"
-#include "compact/search.h"
 #include "set/parts.h"
 
 #define CORRECTION_STEP 8  /* steps of corrections, in RMS errors of a picture of mean 1 */
@@ -130,7 +130,7 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
     if (!code && unknown && chosen.warn)
         tell_unknown(&chosen, unknown);
     if (!code && sortable && !unknown) {
-        code = retex_compact_search(&scales, &light, &chosen, nthreads, err);
+        code = retex_compact_choose(&scales, &light, &chosen, nthreads, err);
         if (!code)
             code = retex_compact_build(compact, &light, &scales, nthreads, err);
     } else if (!code) {

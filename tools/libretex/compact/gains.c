@@ -104,8 +104,6 @@ static int open_term_light(TermLight *of, const RetexCompactLight *light, const 
 static void term_light(const TermLight *of, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (of->interreflected && !retex_compact_has_interreflections(of->light, of->kind, pixel))
-        return;
     for (int i = 0; i < of->count; i++) {
         const Source *source = &of->sources[i];
         if (source->uv && !(source->uv[3 * pixel + 2] > 0))
@@ -113,6 +111,9 @@ static void term_light(const TermLight *of, size_t pixel, double rgb[3])
         for (size_t c = 0; c < 3; c++)
             rgb[c] += source->share * (double)source->radiance[3 * pixel + c];
     }
+    if (of->interreflected && (rgb[0] != 0 || rgb[1] != 0 || rgb[2] != 0) &&
+        !retex_compact_has_interreflections(of->light, of->kind, pixel))
+        rgb[0] = rgb[1] = rgb[2] = 0;
 }
 
 int retex_compact_term_light(RetexImage *image, const RetexCompactLight *light, const RetexCompactKind *kind,
@@ -254,16 +255,6 @@ int retex_compact_gain_end(RetexImage *gain, const RetexImage *sum, int scale, R
         if (made[i % 3] > 0)
             gain->pixels[i] = (float)((double)gain->pixels[i] * wanted[i % 3] / made[i % 3]);
     return code;
-}
-
-int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
-                            const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
-                            RetexError *err)
-{
-    int code = retex_compact_gain_begin(gain, light, scale, err);
-    if (!code)
-        code = retex_compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
-    return code ? code : retex_compact_gain_end(gain, sum, scale, err);
 }
 
 int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImage *all, int scale, int nthreads,

@@ -15,11 +15,6 @@ static inline int retex_compact_term_lamps(const RetexCompactLight *light, const
     return number < light->nlamps ? number : kind->gains[mixed][number - light->nlamps].lamps;
 }
 
-/* The ratio of a term's light to the sum of its lamps, of a single lamp to that of all, RGB, at a scale. */
-int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
-                            const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
-                            RetexError *err);
-
 /* The light of a term, as an image of the set's size. */
 int retex_compact_term_light(RetexImage *image, const RetexCompactLight *light, const RetexCompactKind *kind,
                              RetexCompactMixed mixed, int number, RetexError *err);

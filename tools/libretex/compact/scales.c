@@ -1,11 +1,6 @@
 /* See scales.h. */
 #include "compact/scales.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "set/set.h"
-
 int retex_compact_most_places(const RetexCompactLight *light)
 {
     int most = 0;
@@ -26,15 +21,4 @@ unsigned char *retex_compact_share_scale(const RetexCompactScales *scales, const
                                          int parameter)
 {
     return &scales->lamps[light->nkinds * retex_compact_most_places(light) + parameter];
-}
-
-int retex_compact_lamps_fixed(RetexCompactScales *scales, const RetexCompactLight *light, int scale, RetexError *err)
-{
-    const size_t count = (size_t)(light->nkinds * retex_compact_most_places(light) + light->set->nparameters);
-    if (!retex_set_has_role(light->set, RETEX_ROLE_LAMP))
-        return RETEX_OK;
-    if (!scales->lamps && !(scales->lamps = malloc(count + 1)))
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for lamps");
-    memset(scales->lamps, scale, count);
-    return RETEX_OK;
 }

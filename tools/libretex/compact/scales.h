@@ -22,7 +22,5 @@ unsigned char *retex_compact_share_scale(const RetexCompactScales *scales, const
                                          int parameter);
 /* Most places of a kind. */
 int retex_compact_most_places(const RetexCompactLight *light);
-/* Make scales->lamps, which the caller frees, for sets with terms of role LAMP. All have this scale. */
-int retex_compact_lamps_fixed(RetexCompactScales *scales, const RetexCompactLight *light, int scale, RetexError *err);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "compact/light.h"
 
-#define RETEX_COMPACT_STRIP_ROWS 64 /* a multiple of all scales, and of a tile of distortion.c */
+#define RETEX_COMPACT_STRIP_ROWS 64 /* a multiple of all scales */
 
 /* Process a strip of light->set->height rows; first: the picture's row of its first row. The strip has rows of the
  * parts of the picture's size only. */

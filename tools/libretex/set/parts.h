@@ -33,8 +33,8 @@ typedef struct RetexSetView {
 int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err);
 void retex_set_view_free(RetexSetView *view);
 
-/* Make an image a factor of a term that has all others: the first where it is smaller than the picture, else the last.
- * */
+/* Make an image a factor of a term that has all others: the first where it is smaller than the picture, else the
+ * last. */
 int retex_term_add_image(RetexTerm *term, const RetexSet *set, int part, RetexError *err);
 
 #endif

@@ -255,6 +255,7 @@ static int web_open(Web *web, const RetexSet *set, const RetexWebParams *params,
     compacting.lamps = retex_pack_quality_psnr(quality) - LAMP_LOSS;
     compacting.noise = pow(fmin((100 - quality) / 10.0, 1), 2);
     compacting.broad = compacting.interreflection = compacting.gain = scale;
+    compacting.least = 2; /* see model.c */
     *web = (Web){0};
     int code = retex_set_compact(&web->set, set, &compacting, nthreads, err);
     if (!code)
