@@ -7,7 +7,8 @@
 #   make check-mutants build each defect of tests/mutants/list.txt; a test must fail
 #   make check-branches AREA='film path' COUNT=60 SEED=1   change instructions of compiled files; a test must notice
 #   make check-update CASE=golden/NAME   update a golden reference, printing the change
-#   make asan, tsan   run the unit and command-line tests with the sanitizers
+#   make check-debug  run the unit and command-line tests with assertions on
+#   make asan, tsan   the same with the sanitizers
 #   make fuzz         run mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
 #   make fuzz-guided  the same guided by coverage, with clang; make fuzz-coverage: what of parsers they reach
 #   make bench        print ratios of speed: kernels against references, sets against plain renders
@@ -35,7 +36,9 @@
 #   make deb          Debian packages, into build/deb
 # A missing compiler or library is installed first if permitted: tools/setup.sh.
 
-BUILD ?= build
+# DEBUG=1: a build of its own in which assertions are checked (retex/host/assert.h).
+DEBUG =
+BUILD ?= build$(if $(DEBUG),/debug)
 PREFIX ?= /usr/local
 LIBDIR ?= $(PREFIX)/lib
 DESTDIR ?=

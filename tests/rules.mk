@@ -105,7 +105,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
+.PHONY: unit-tests test-programs tests check check-all check-debug check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-guided fuzz-coverage fuzz-programs sanitized-fuzz guided-fuzz guided-programs
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) $(BUILD)/tests/web/player.js all
@@ -117,8 +117,12 @@ RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
+	@$(MAKE) check-debug
 	@tools/setup.sh cluster || true # long/cluster.sh tells what is missing
 	@MUTANTS=all RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long mutants
+# With assertions on.
+check-debug:
+	$(MAKE) BUILD=$(BUILD)/debug DEBUG=1 SUITES='unit cli' check
 # Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
 check-mutants: tests
 	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants
@@ -141,7 +145,8 @@ check-long: tests sanitized-fuzz
 check-update: tests
 	@BUILD=$(BUILD) tests/lib/update.sh '$(CASE)'
 
-SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
+# Assertions are on in these builds, too: fuzzing looks for inputs that break them.
+SANITIZED = DEBUG=1 CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
 	LDFLAGS='-fsanitize=$(1)'
 ADDRESS_SANITIZED = BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined)
 # Freed memory that is kept aside would count in tests of peak memory. The leak checker takes the thread-local memory of

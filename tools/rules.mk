@@ -4,7 +4,7 @@ TOOLS += retex $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 
 # Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO, OpenColorIO and
 # Little CMS.
-CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(CPPFLAGS)
+CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(if $(DEBUG),-DRETEX_DEBUG) $(CPPFLAGS)
 CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) \
 	$(SAME_ANYWHERE) $(CFLAGS)
 CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) \

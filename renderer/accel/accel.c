@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "accel/embree.h"
 #include "shade/texture.h"
 #include "shape/csg.h"
@@ -35,6 +36,7 @@ static int copy_bounds(const Accel *shared, const Transform *transform, Vec3 *lo
 /* 0: there are none. */
 static int item_bounds(const Accel *accel, int item, Vec3 *low, Vec3 *high)
 {
+    RETEX_ASSERT(item >= -accel->source->ncsgs && item < accel->source->nprimitives + accel->source->ninstances);
     if (item >= accel->source->nprimitives) {
         const Instance *instance = &accel->source->instances[item - accel->source->nprimitives];
         return copy_bounds(accel->prototypes[instance->prototype->number]->accel, &instance->transform, low, high);
@@ -288,6 +290,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
             add_triangle(accel, &count, base, shape.corners + (size_t)k * shape.stride, i, k / shape.per_face);
         base += (size_t)shape.nvertices;
     }
+    RETEX_ASSERT(base == accel->nvertices && count <= accel->ntriangles); /* what classify_primitives has counted */
     accel->ntriangles = count;
     return 0;
 }
@@ -525,6 +528,8 @@ void accel_close(Accel **accel)
 int accel_is_transparent(const Accel *accel, const Hit *hit)
 {
     const Scene *scene = accel->source;
+    RETEX_ASSERT(hit->primitive >= 0);
+    RETEX_ASSERT(!hit->instance == !scene->primitives[hit->primitive].prototype);
     unsigned flags = accel->flags[hit->primitive];
 
     if (hit->instance && flags & INHERITS)

@@ -22,6 +22,7 @@
  * coherent rays. */
 #include <float.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "accel/lanes.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
@@ -89,6 +90,7 @@ static inline int triangle_distance(const QueryRay *query_ray, const Triangle *t
 static inline int record_hit(QueryRay *query_ray, double t, int primitive, int face)
 {
     Hit *hit = query_ray->hit;
+    RETEX_ASSERT(hit && primitive >= 0); /* not an item, as those of CSG are */
     const int later = primitive > hit->primitive || (primitive == hit->primitive && face >= hit->face);
 
     if (hit->primitive >= 0 && (t > hit->t || (t == hit->t && !hit->instance && later)))
@@ -214,6 +216,7 @@ static int record_instance_hit(QueryRay *query_ray, double t, const Instance *in
             return 0;
         nearest->primitive = -1;
     }
+    RETEX_ASSERT(hit->primitive < instance->prototype->count); /* of the prototype's, not of the scene's */
     if (!record_hit(query_ray, t, instance->prototype->first + hit->primitive, hit->face))
         return 0;
     nearest->instance = instance;
@@ -480,6 +483,7 @@ static inline int refine_triangle_hit(const Accel *accel, QueryRay *query_ray, c
 
     if (geometry == RTC_INVALID_GEOMETRY_ID || geometry == accel->curved_geometry)
         return 1;
+    RETEX_ASSERT(geometry == accel->triangle_geometry && index < accel->ntriangles);
     const Triangle *triangle = &accel->triangles[index];
     if (!triangle_distance(query_ray, triangle, ray->tmax, &t) || !is_visible(accel, query_ray, triangle->primitive))
         return 0;
@@ -646,6 +650,7 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
                             Hit *hits)
 {
     const int has_shapes = accel->ncurved + accel->nplanes > 0;
+    RETEX_ASSERT(count <= ACCEL_PACKET);
     Packet p;
     Query query;
     LaneTriangles triangles;

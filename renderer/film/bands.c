@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "film/bands.h"
+#include <retex/host/assert.h>
 #include <retex/host/set_build.h>
 
 #include "film/limits.h"
@@ -198,6 +199,8 @@ static float *acquire_rows(BandRows *rows, int image)
 
 float *bands_pixel(BandRows *rows, int image, int x, int y)
 {
+    RETEX_ASSERT(image >= 0 && x >= 0 && x < rows->of->width);
+    RETEX_ASSERT(y >= rows->band * BAND_LINES && y < rows->band * BAND_LINES + rows->lines); /* y of the picture */
     float *at = atomic_load_explicit(&rows->rows[image], memory_order_acquire);
     if (!at)
         at = acquire_rows(rows, image);
@@ -207,6 +210,7 @@ float *bands_pixel(BandRows *rows, int image, int x, int y)
 
 void bands_add_albedo(const BandRows *rows, int uv_image, int albedo_image, RetexBandStats *stats, int target)
 {
+    RETEX_ASSERT(rows->of->images[uv_image]->channels == 3 && rows->of->images[albedo_image]->channels == 3);
     const float *uv = rows->rows[uv_image], *albedo = rows->rows[albedo_image];
     size_t count = (size_t)rows->of->width * (size_t)rows->lines;
     for (size_t i = 0; uv && albedo && i < count; i++) {
@@ -338,6 +342,7 @@ int bands_is_empty(const Bands *bands, int image)
 int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexError *err)
 {
     BandImage *image = bands->images[number];
+    RETEX_ASSERT(bands->whole || bands->store); /* whole images may have a store too, which gets a copy */
     if (!bands->whole)
         return retex_set_add_stored(set, image->name, image->letters, image->type, image->store_image, part, err);
     if (!image->whole.pixels) {

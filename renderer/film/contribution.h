@@ -8,6 +8,7 @@
 #define RENDERER_FILM_CONTRIBUTION_H
 
 #include "base/color4.h"
+#include <retex/host/assert.h>
 #include "scene/scene.h"
 
 /* What a surface does with one of the finishes of its target. */
@@ -39,6 +40,8 @@ static inline Float4 factor_whole(const Factor *f)
 static inline Float4 factor_of_variant(const Factor *f, int variant)
 {
     Float4 d = f->variants ? f->variants[variant].d : f->d, i = f->variants ? f->variants[variant].i : f->i;
+    RETEX_ASSERT(!f->weights || f->finishes);    /* they weigh these */
+    RETEX_ASSERT(!f->weights || !f->variants);   /* a texture has a map of finishes or a normal map */
     if (f->weights)
         d = i = splat(0);
     for (int k = 0; f->weights && k < FINISHES_MAX; k++)
@@ -51,6 +54,7 @@ static inline Float4 factor_of_variant(const Factor *f, int variant)
 /* The part of it with the finish that its target has in a combination. */
 static inline FinishFactor factor_of_combination(const Factor *f, const Scene *scene, int combination)
 {
+    RETEX_ASSERT(!f->finishes || (f->target >= 0 && (!scene->ncombinations || combination < scene->ncombinations)));
     return f->finishes ? f->finishes[scene->finish_of[combination][f->target]] : (FinishFactor){f->d, f->i};
 }
 

@@ -1,6 +1,7 @@
 /* See split.h. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "film/split.h"
 
 int split_open(SplitSink *s, const FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err)
@@ -85,6 +86,8 @@ static inline TargetNode *add_hit(SplitSink *s, SplitPath *p, const Factor *f, T
         hit->before_finishes = s->finishes[s->count];
     }
     s->count++;
+    RETEX_ASSERT(p->tree.count <= TARGET_NODES_MAX);       /* as much memory as there is for a path */
+    RETEX_ASSERT(!hit->before_finishes || s->scene->ncombinations > 1);
     return hit;
 }
 
@@ -150,6 +153,7 @@ static void add_lamp_light(SplitSink *s, SplitPath *p, int kept, const TargetNod
                            Float4 light)
 {
     LampLight *same = p->tree.lamp_light;
+    RETEX_ASSERT(kept >= 0 && kept < s->scene->nkept); /* of kept light, not of lamps */
     while (same && (same->kept != kept || same->hit != hit))
         same = (LampLight *)same->earlier;
     if (same) {
@@ -196,6 +200,7 @@ static inline void find_hits(const SplitSink *s, const SplitPath *p, int ncombin
 
 static inline void add_hits(SplitSink *s, SplitPath *p, int ncombinations, ContributionHits *hits)
 {
+    RETEX_ASSERT(p->last || !p->last_finishes); /* factors by finish are of that hit */
     hits->last = p->last, hits->by_finish = p->last_finishes;
     hits->by = p->last ? (FinishFactor){p->last_d, p->last_i} : (FinishFactor){splat(0), splat(1)};
     for (int k = 0; k < hits->count; k++) {
@@ -230,6 +235,8 @@ static inline __attribute__((always_inline)) int add(SplitSink *s, SplitPath *p,
     if (is_black)
         return 1;
     add_hits(s, p, ncombinations, &hits);
+    RETEX_ASSERT(hits.last || !hits.by_finish);
+    RETEX_ASSERT(!hits.met || ncombinations > 1); /* which goes to kept light by combination */
     for (int k = 0; k < ncombinations; k++) {
         const FinishFactor by = hits.by_finish ? hits.by_finish[scene->finish_of[k][hits.last->at.target]] : hits.by;
         const Float4 scaled = light[k].rest * share, own_d = by.d * scaled, own_i = by.i * scaled;

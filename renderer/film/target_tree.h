@@ -10,6 +10,7 @@
 #ifndef RENDERER_FILM_TARGET_TREE_H
 #define RENDERER_FILM_TARGET_TREE_H
 
+#include <retex/host/assert.h>
 #include <retex/set.h>
 #include "film/contribution.h"
 
@@ -43,6 +44,7 @@ static inline int target_counts_allow(const TargetCounts *counts, int target, in
 /* Count one more hit; both_parts: its d and its i are not black. */
 static inline void target_counts_add(TargetCounts *counts, int target, int both_parts)
 {
+    RETEX_ASSERT(counts->nhits < TARGET_NODES_MAX);
     counts->nhits++;
     counts->per_target[target]++;
     if (both_parts)
@@ -95,6 +97,7 @@ typedef struct TargetTree {
 static inline TargetNode *target_tree_add(TargetTree *hits, TargetNode *hit, const TargetVertex *at, TargetNode *before,
                                      Float4 before_d, Float4 before_i)
 {
+    RETEX_ASSERT(!before || before->number < hits->count); /* hits come after those nearer to the camera */
     hit->before_finishes = NULL;
     hit->dependent = hit->independent = splat(0);
     hit->before_d = before_d, hit->before_i = before_i;

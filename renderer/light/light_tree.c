@@ -1,6 +1,7 @@
 /* Building the light tree. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "light/light_tree_nodes.h"
 
 #define WIDTH LIGHT_TREE_WIDTH
@@ -223,6 +224,7 @@ static void cut_range(Builder *b, Range *range, Range *rest)
     }
     if (middle == range->first || middle == range->end)
         middle = range->first + (range->end - range->first) / 2;
+    RETEX_ASSERT(middle > range->first && middle < range->end); /* neither part is empty */
     *rest = (Range){middle, range->end, 0};
     range->end = middle;
     range->cost = range_cost(b, range);
@@ -249,6 +251,7 @@ static void build(Builder *b, Range range, int parent)
         cut_range(b, &ranges[dear], &ranges[count]);
         count++;
     }
+    RETEX_ASSERT(index == 0 ? count == 1 : count >= 2); /* so there are at most as many nodes as lights, and one */
     LightTreeNode *node = &tree->nodes[index];
     memset(node, 0, sizeof *node);
     node->count = count;

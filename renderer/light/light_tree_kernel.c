@@ -1,5 +1,6 @@
 /* Going down the light tree. */
 #include <string.h>
+#include <retex/host/assert.h>
 #include "base/color4.h"
 #include "light/light_tree_nodes.h"
 
@@ -98,6 +99,7 @@ int light_tree_pick(const LightTree *tree, const LightSampleContext *point, doub
             last--;
         while (k < last && at >= weights[k])
             at -= weights[k++];
+        RETEX_ASSERT(k < n->count); /* the others are not there */
         *u = fmin(at / weights[k], 1 - 0x1p-53);
         *probability *= weights[k] / sum;
         index = n->child[k];
@@ -111,6 +113,7 @@ float light_tree_probability(const LightTree *tree, const LightSampleContext *po
     float probability = 1;
     for (int place = tree->places[light]; place >= WIDTH; place = tree->nodes[place / WIDTH].parent) {
         float weights[WIDTH], sum = choice_weights(&tree->nodes[place / WIDTH], &p, weights);
+        RETEX_ASSERT(place % WIDTH < tree->nodes[place / WIDTH].count);
         probability *= weights[place % WIDTH] / sum;
     }
     return probability;

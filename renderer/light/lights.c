@@ -1,6 +1,7 @@
 /* The list of all lights and the choice among them. */
 #include <limits.h>
 #include <stdlib.h>
+#include <retex/host/assert.h>
 #include "light/lights.h"
 #include "light/sky_table.h"
 #include "shade/bsdf.h"
@@ -154,6 +155,7 @@ static int open_choice(Choice *choice, const LightEntries *list, int lamp, Retex
         sum_infinite(choice);
     if (!code && n > 0)
         code = light_tree_create(&choice->tree, bounds, n, err);
+    RETEX_ASSERT(code || n == leaves);
     free(bounds);
     return code;
 }
@@ -192,9 +194,13 @@ static int index_entries(Lights *lights, RetexError *err)
         if (list->entries[k].ops == &entry_sky)
             lights->sky = k;
     for (int k = 0; k < list->count && list->entries[k].ops->point; k++) {
+        RETEX_ASSERT(list->entries[k].index < list->scene->nprimitives); /* not a light source's, which are lights */
+        RETEX_ASSERT(lights->of_primitive[list->entries[k].index] < 0);  /* a primitive is one entry */
         lights->of_primitive[list->entries[k].index] = k;
         lights->emitter_sums[++lights->nemitters] = lights->emitter_sums[k] + list->entries[k].strength;
     }
+    for (int k = lights->nemitters; k < list->count; k++)
+        RETEX_ASSERT(!list->entries[k].ops->point); /* shapes stand first */
     return RETEX_OK;
 }
 
@@ -259,6 +265,7 @@ static void local_shares(const Choice *choice, const LightSampleContext *point, 
 {
     const LightEntries *list = choice->list;
     float total = 0, sum = 0;
+    RETEX_ASSERT(list->count <= EXACT_MOST); /* as many as `shares` has */
     for (int k = 0; k < list->count; k++) {
         const LightEntry *e = &list->entries[k];
         shares[k] = -1;
@@ -311,8 +318,10 @@ static float probability_within(const Choice *choice, const LightSampleContext *
     const LightEntry *e = &choice->list->entries[entry];
     const float share = tree_share(choice, point);
     const int leaf = choice->leaf_of[entry];
+    RETEX_ASSERT(has_entry(choice, entry) && (leaf >= 0) == !e->is_infinite);
     if (leaf < 0)
         return (1 - share) * infinite_share(choice, choice->infinite_of[entry]);
+    RETEX_ASSERT(e->nfaces == 0 || (face >= 0 && face < e->nfaces)); /* of the light's faces, not of the mesh's */
     return share * light_tree_probability(choice->tree, point, leaf + (e->nfaces > 0 ? face : 0));
 }
 
@@ -321,6 +330,7 @@ static float pick_probability(const Lights *lights, const LightSampleContext *po
     const float of_all = probability_within(&lights->all, point, entry, face);
     if (lights->lamp_share == 0)
         return of_all;
+    RETEX_ASSERT(lights->choice_of[lights->list.entries[entry].lamp] >= 0); /* it has this entry at least */
     const Choice *lamp = &lights->lamps[lights->choice_of[lights->list.entries[entry].lamp]];
     return (1 - lights->lamp_share) * of_all +
            lights->lamp_share / (float)lights->nchoices * probability_within(lamp, point, entry, face);
@@ -412,6 +422,7 @@ int lights_sample(const Lights *lights, const LightSampleContext *point, const L
     if (pick->entry < 0)
         return 0;
     const LightEntry *e = &lights->list.entries[pick->entry];
+    RETEX_ASSERT(pick->face < (e->nfaces > 0 ? e->nfaces : 1)); /* of the light's faces */
     sample->pick_probability = pick->probability;
     sample->lamp = e->lamp, sample->is_sky = 0;
     return e->ops->sample(e, pick, point->position, u1, u2, sample);
@@ -481,6 +492,7 @@ int lights_emission(const Lights *lights, float u_pick, float u1, float u2, Emis
     LightPick whole = {low, -1, 1};
     Surface surface;
     const LightEntry *e = &lights->list.entries[low];
+    RETEX_ASSERT(e->ops->point); /* sums are of shapes, which stand first */
     double density = e->ops->point(e, &whole, u1, u2, &surface);
     double part = e->strength / lights->emitter_sums[lights->nemitters];
     if (!(density > 0 && part > 0))

@@ -1,6 +1,7 @@
 /* Emitting meshes: all that sampling needs to know of their faces, computed once. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "light/mesh_light.h"
 #include "shade/pigment.h"
 #include "shade/texture.h"
@@ -157,6 +158,7 @@ static int find_face(const MeshLight *light, float u)
  * (2019). */
 MeshLightPoint mesh_light_point(const MeshLight *light, int face, float u1, float u2)
 {
+    RETEX_ASSERT(face < light->count); /* of the light's faces, not of the mesh's, of which some do not emit */
     const float along = fmaxf(u1, u2);
     float across = u1 >= u2 ? u2 / (2 * fmaxf(u1, 0x1p-25f)) : 1 - u1 / (2 * u2);
     double share = 1;
@@ -167,6 +169,7 @@ MeshLightPoint mesh_light_point(const MeshLight *light, int face, float u1, floa
         across = (float)((across - first) / (light->sums[face + 1] - first));
     }
     const MeshLightFace *f = &light->faces[face];
+    RETEX_ASSERT(light->of_face[f->face] == face);
     return (MeshLightPoint){f, along, across, share * f->inverse_area};
 }
 

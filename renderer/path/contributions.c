@@ -3,6 +3,7 @@
  * `beta` is the throughput with all factors, in the first variant of the textures: the picture's. The other sinks keep
  * theirs, so each factor is told to all of them. */
 #include "path/internal.h"
+#include <retex/host/assert.h>
 #include "path/path.h"
 
 int path_worker_open(PathWorker *w, RetexError *err)
@@ -61,6 +62,7 @@ int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Split weight,
     factor.finishes = finishes, factor.weights = weights;
     factor.variants = variants, factor.reflects = reflects;
     set_seen(&factor, path);
+    RETEX_ASSERT(!c->split || c->nvariants == 1); /* sets are rendered with the textures that they are to replace */
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)
         betas[v] = rgb_of4(color4(betas[v]) * factor_of_variant(&factor, v));
@@ -104,6 +106,7 @@ void path_contribute(PathWorker *w, Path *path, const Contribution *unexposed)
     for (int k = 0; k < c->nfactors; k++)
         light *= factor_whole(&c->factors[k]);
     const Scene *scene = context->scene;
+    RETEX_ASSERT(c->lamp >= 0 && (!scene->nlamps || c->lamp < scene->nlamps));
     const Float4 shown = scene->nlamps ? light * color4(scene->lamps[c->lamp].shown) : light;
     if (context->trace)
         fprintf(context->trace, "  light %.6g %.6g %.6g%s%s\n", shown[0], shown[1], shown[2],

@@ -8,6 +8,7 @@
  * Of matte surfaces, as most are, the direct-light sample and the BSDF sample are computed for a whole packet at once,
  * see matte.h. */
 #include <string.h>
+#include <retex/host/assert.h>
 #include "path/internal.h"
 #include "path/path.h"
 #include "path/matte.h"
@@ -290,6 +291,7 @@ static int advance_lane(PathWorker *w, Packet *p, int lane, Ray *ray)
 static void advance(PathWorker *w, Wavefront *wave, int first, int count, int step)
 {
     Packet p;
+    RETEX_ASSERT(wave->count <= first); /* those that stay alive are put where none is left to be looked at */
     p.paths = wave->live + first, p.rays = wave->rays + first, p.count = count;
     shade(w, &p, wave->hits + first, step);
     if (step == 0 && count >= PACKET_LEAST) /* later shadow rays have little in common */
@@ -339,6 +341,8 @@ static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const S
 void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count, int each, PathResult *results)
 {
     Wavefront wave;
+    RETEX_ASSERT(count <= PATHS_MAX && each > 0 && count % each == 0);
+    RETEX_ASSERT(!w->control || count == each); /* it has one pixel at a time */
     trace_paths(w, &wave, rays, samplers, count, each);
     for (int i = 0; i < count; i++) {
         const Path *path = &wave.paths[i];

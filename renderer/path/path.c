@@ -5,6 +5,7 @@
  * paths at once. */
 #include <string.h>
 #include <retex/color.h>
+#include <retex/host/assert.h>
 #include "light/environment.h"
 #include "light/source.h"
 #include "path/media.h"
@@ -271,6 +272,9 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,
                 next->wi.z, pdf, rgb_luminance(next->weight.d), rgb_luminance(next->weight.i));
+    RETEX_ASSERT(!next->straight || next->transmitted);
+    RETEX_ASSERT(!next->straight || next->pdf == 0); /* passing straight is a delta lobe */
+    RETEX_ASSERT((pdf > 0) == (next->pdf > 0));      /* the guide does not sample delta lobes */
     if (next->transmitted && v->wavelength >= 0)
         path_take_wavelength(w, path, v->wavelength);
     if (next->transmitted)
@@ -290,6 +294,7 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next->wi);
     ray->direction = next->wi;
     ray->tmin = 0, ray->tmax = INFINITY;
+    RETEX_ASSERT(!(fabs(vec_dot(ray->direction, ray->direction) - 1) > 1e-4)); /* densities are per solid angle */
     path_next_segment(path, pdf, next->pdf);
     if (w->context->caustic_sources > 0)
         meet_sources(w, path, v, next, ray);

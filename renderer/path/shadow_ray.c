@@ -1,5 +1,6 @@
 /* Shadow rays: which lights a vertex sees, and how fading interiors and transparent surfaces dim them. */
 #include "light/environment.h"
+#include <retex/host/assert.h>
 #include "path/internal.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
@@ -192,6 +193,8 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
 {
     const Light *source = t->light.source;
     Rgb *light = &t->light.radiance;
+    RETEX_ASSERT(!source || !t->light.is_sky);
+    RETEX_ASSERT(!(t->ray.tmax < t->ray.tmin)); /* Embree takes an end below 0 for a ray that is blocked */
     if (t->light.shadowless)
         return 0;
     if (!t->traced) {

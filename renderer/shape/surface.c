@@ -1,6 +1,7 @@
 /* The surface at a hit: from a ray and what the tracer said of it to a point exactly on the shape, with its normals,
  * its UVs and whose texture and target it is. */
 #include "shape/shape.h"
+#include <retex/host/assert.h>
 #include "shape/surface.h"
 
 /* The texture and target there. All else of the surface but the side it is seen from is set. */
@@ -10,6 +11,8 @@ static void set_material(Surface *surface)
     const Shape *shape = &primitive->shape;
     int own = shape->textures ? shape->ops->texture(surface) : -1;
 
+    RETEX_ASSERT(own < 0 || own < shape->textures->count);
+    RETEX_ASSERT(!primitive->face_targets || shape->textures); /* by the shape's textures, not by its faces */
     surface->texture = own >= 0 ? shape->textures->list[own] : primitive->texture;
     surface->target = own >= 0 && primitive->face_targets ? primitive->face_targets[own] : primitive->target;
     if (primitive->faces)
@@ -110,8 +113,12 @@ static void instance_at(Surface *surface, const Primitive *primitive, const Ray 
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit)
 {
+    RETEX_ASSERT(hit->primitive >= 0 && hit->primitive < scene->nprimitives);
     const Primitive *primitive = &scene->primitives[hit->primitive];
 
+    RETEX_ASSERT(!hit->instance == !primitive->prototype); /* those of prototypes are where instances are */
+    RETEX_ASSERT(!hit->instance || hit->instance->prototype == primitive->prototype);
+    RETEX_ASSERT(!primitive->inherits || hit->instance->texture);
     surface->direction = ray->direction;
     if (hit->instance)
         instance_at(surface, primitive, ray, hit);

@@ -13,6 +13,7 @@
  * which of them are narrow. So more are gathered than are kept; the last mergings, when the pixel is complete, go by
  * fine features. */
 #include <math.h>
+#include <retex/host/assert.h>
 #include "film/footprints/pixel.h"
 #include "film/footprints/places.h"
 
@@ -118,6 +119,15 @@ void clusters_add_interreflection(TargetClusters *target, const Interreflection 
 /* What merging costs: of sharp places, of sharp ones where mirrors or glass show some, of broad ones. */
 typedef enum Rule { RULE_WARD, RULE_LIGHT, RULE_VARIATION } Rule;
 
+/* Whether clusters of interreflections stand before those that are not used, which have no weight. */
+static int are_first(const InterreflectionCluster *clusters)
+{
+    for (int k = 1; k < INTERREFLECTION_GATHERED; k++)
+        if (clusters[k].uv.weight > 0 && !(clusters[k - 1].uv.weight > 0))
+            return 0;
+    return 1;
+}
+
 static Clusters *clusters_of(TargetClusters *target, int sharp)
 {
     return sharp ? &target->sharp : &target->broad;
@@ -201,6 +211,7 @@ static void add_first_hit(Clusters *clusters, int k, const FirstHit *q, Rule rul
 
 static void start_cluster(Clusters *clusters, int k, const FirstHit *q, Rule rule, const int periodic[2])
 {
+    RETEX_ASSERT(k < FILM_CLUSTERS_MAX);
     clusters->of[k] = (Cluster){.squares = 0};
     clusters->rest[k].uv.weight = 0;
     add_first_hit(clusters, k, q, rule, periodic);
@@ -293,6 +304,7 @@ static Pair find_cheapest(TargetClusters *target, int own_is_full, const FirstHi
 static void merge_pair(const Pair *pair, const int periodic[2])
 {
     Clusters *clusters = pair->clusters;
+    RETEX_ASSERT(pair->a < pair->b && pair->b < clusters->count); /* so the last one is not `a`, which remains */
     merge_clusters(clusters, pair->a, pair->b, pair->rule, periodic);
     if (pair->b != --clusters->count)
         move_cluster(clusters, pair->b, clusters->count);
@@ -353,6 +365,8 @@ void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *p
         int i = __builtin_ctz(left);
         own->interreflected[i] += q->light->c[i];
     }
+    RETEX_ASSERT(own->count <= most && target->sharp.count + target->broad.count <= all);
+    RETEX_ASSERT(!(q->light->used & 1)); /* [0] stays empty: it is light of the clusters themselves */
     if (own->count < most && target->sharp.count + target->broad.count < all)
         add_cluster(own, q, rule_of(target, q->sharp), periodic);
     else
@@ -399,6 +413,7 @@ static void add_place(Places *places, const RetexUvStats *uv, double squares)
 static void remove_place(Places *places, int a, int b)
 {
     const int last = --places->count;
+    RETEX_ASSERT(a < b && b <= last);
     places->changed |= 1u << a;
     if (b == last)
         return;
@@ -499,6 +514,7 @@ void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *param
 void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params, double light, int spp)
 {
     InterreflectionCluster *clusters = target->interreflections;
+    RETEX_ASSERT(are_first(clusters));
     Places places = {.periodic = params->periodic[t], .feature = INTERREFLECTION_FEATURE};
     int a, b;
     while (places.count < INTERREFLECTION_GATHERED && clusters[places.count].uv.weight > 0)

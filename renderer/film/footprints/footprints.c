@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "film/footprints/footprints.h"
 #include "film/footprints/lamps.h"
 
@@ -53,6 +54,7 @@ static Float4 weighing_albedo(Rgb a)
 
 static inline void add_coefficient(HitLight *sum, int k, Float4 value)
 {
+    RETEX_ASSERT(k > 0); /* there is a way on: the limits of hits are those of the plan */
     sum->c[k] = sum->used >> k & 1 ? sum->c[k] + value : value;
     sum->used |= 1u << k;
 }
@@ -242,6 +244,7 @@ static void gather_path(FootprintPixel *p, const TargetTree *path, const TargetN
     const Scene *scene = p->film->scene;
     for (int k = 0; k < path->count; k++) {
         const TargetNode *before = hits[k]->before;
+        RETEX_ASSERT(hits[k]->number == k && (!before || before->number < k)); /* those nearer to the camera are made */
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
         start_node(&p->nodes[k], light ? light[k] : (FinishFactor){hits[k]->dependent, hits[k]->independent},
                    target_node_before(hits[k], scene, combination), before ? &p->nodes[before->number] : NULL);
@@ -330,6 +333,7 @@ static void end_path(void *pixel, const TargetTree *path)
     Float4 indep = path->without_hit, white = path->without_hit;
     if (p->film->quadrants)
         quadrants_start_path(&p->quadrants, &path->seen, p->film->params.periodic);
+    RETEX_ASSERT(path->count <= TARGET_NODES_MAX && !path->last == !path->count);
     for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
     if (path->count == 1)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <retex/host/assert.h>
 #include "film/footprints/plan.h"
 
 /* So many further hits are kept in every combination: all of one target, 15 combinations of two, 10 of three, 15 of
@@ -54,6 +55,7 @@ static void complete(Plan *plan, int ntargets, int first_mixed)
             for (int m = first_mixed; next < 0 && m < plan->count; m++)
                 if (plan->coefficients[m].mixed == further_hits(c) + 1)
                     next = m;
+            RETEX_ASSERT(next < 0 || (next > k && further_hits(&plan->coefficients[next]) == further_hits(c) + 1));
             c->next[t] = (signed char)next;
         }
     }
@@ -68,6 +70,7 @@ static void make_within(Plan *plan, int ntargets, int together, int most)
     int first_mixed = plan->count;
     for (int hits = together + 1; hits <= most; hits++)
         plan->coefficients[plan->count++].mixed = (unsigned char)hits;
+    RETEX_ASSERT(plan->count <= PLAN_COEFFICIENTS_MAX && further_hits(&plan->coefficients[0]) == 0);
     complete(plan, ntargets, first_mixed);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/host/rounding.h>
 #include <retex/target_name.h>
 #include "film/footprints/lamps.h"
@@ -317,6 +318,7 @@ static void store_clusters(FootprintPixel *p, const TargetImages *target, int ki
         clusters_keep_rest(clusters);
     }
     qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
+    RETEX_ASSERT(clusters->count <= most_of_kind(&p->film->params, kind)); /* as many as have images */
     for (int k = 0; k < clusters->count; k++) {
         const Cluster *cluster = &clusters->of[k];
         float coverage = (float)effective_samples(cluster->uv.weight, cluster->squares) * scale;

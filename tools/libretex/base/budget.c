@@ -6,6 +6,7 @@
 
 #include <retex/budget.h>
 #include <retex/clock.h>
+#include <retex/host/assert.h>
 
 #include "base/clock.h"
 
@@ -74,8 +75,11 @@ int retex_budget_charge(RetexBudget *budget, uint64_t bytes, const char *what, R
 
 void retex_budget_release(RetexBudget *budget, uint64_t bytes)
 {
-    if (budget)
-        atomic_fetch_sub(&budget->used, bytes);
+    if (!budget)
+        return;
+    const uint64_t used = atomic_fetch_sub(&budget->used, bytes);
+    RETEX_ASSERT(used >= bytes); /* what is released has been charged */
+    (void)used;
 }
 
 void retex_budget_stop(RetexBudget *budget)

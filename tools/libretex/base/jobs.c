@@ -3,6 +3,7 @@
 
 #include <stdatomic.h>
 
+#include <retex/host/assert.h>
 #include <retex/parallel.h>
 
 typedef struct Jobs {
@@ -20,6 +21,7 @@ static void run_job(void *context, int index, int thread)
     if (atomic_load(&jobs->code))
         return;
     const int code = jobs->job(jobs->context, index, thread, &err);
+    RETEX_ASSERT(code <= 0 && code == err.code); /* who fails says why */
     if (code && atomic_compare_exchange_strong(&jobs->code, &none, code))
         jobs->err = err;
 }

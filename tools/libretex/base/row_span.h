@@ -12,6 +12,15 @@ static inline int retex_span_is_empty(RetexRowSpan span)
     return span.begin >= span.end;
 }
 
+/* Whether a row of `width` pixels keeps the promise of its span. numbers: of a pixel. For assertions: it takes time. */
+static inline int retex_span_holds(RetexRowSpan span, const float *row, int width, int numbers)
+{
+    int holds = retex_span_is_empty(span) || (span.begin >= 0 && span.end <= width);
+    for (int i = 0; i < width * numbers && holds; i++)
+        holds = row[i] == 0 || (i / numbers >= span.begin && i / numbers < span.end);
+    return holds;
+}
+
 /* The pixels in both spans. */
 static inline RetexRowSpan retex_span_intersection(RetexRowSpan a, RetexRowSpan b)
 {

@@ -1,5 +1,7 @@
 /* Clusters of UV, merged by cheapest pair. See uv_pool.h. */
 #include "base/uv_pool.h"
+#include <retex/host/assert.h>
+
 
 static double merging_cost(const RetexUvPool *pool, int i, int j)
 {
@@ -17,6 +19,7 @@ static void find_costs(RetexUvPool *pool, int i)
 void retex_uv_pool_remove(RetexUvPool *pool, int j)
 {
     const int last = --pool->count;
+    RETEX_ASSERT(j >= 0 && j <= last);
     if (j == last)
         return;
     pool->of[j] = pool->of[last];
@@ -27,6 +30,7 @@ void retex_uv_pool_remove(RetexUvPool *pool, int j)
 
 void retex_uv_pool_merge(RetexUvPool *pool, int i, int j)
 {
+    RETEX_ASSERT(i < j); /* so i stays where it is when the last one takes the place of j */
     retex_uv_stats_merge(&pool->of[i].place, &pool->of[j].place, pool->periodic);
     pool->merged(pool->context, pool->of[i].number, pool->of[j].number);
     retex_uv_pool_remove(pool, j);
@@ -45,6 +49,7 @@ void retex_uv_pool_merge_cheapest(RetexUvPool *pool)
 
 void retex_uv_pool_add(RetexUvPool *pool, const RetexUvStats *place, int number)
 {
+    RETEX_ASSERT(pool->count <= RETEX_UV_POOL); /* there is room for one more, until two have merged */
     pool->of[pool->count++] = (RetexUvCluster){*place, number};
     find_costs(pool, pool->count - 1);
     if (pool->count > RETEX_UV_POOL)

@@ -1,6 +1,7 @@
 /* Weighted means and covariances of UV, updated without cancellation (Welford; Chan et al. for merging). */
 #include <math.h>
 
+#include <retex/host/assert.h>
 #include <retex/host/rounding.h>
 #include <retex/host/uv_stats.h>
 
@@ -28,6 +29,7 @@ void retex_uv_stats_add(RetexUvStats *stats, double weight, const double uv[2], 
 
 void retex_uv_stats_merge(RetexUvStats *into, const RetexUvStats *from, const int periodic[2])
 {
+    RETEX_ASSERT(from->weight > 0 && into->weight >= 0); /* else the mean is NaN */
     double total = into->weight + from->weight, share = from->weight / total, d[2];
     for (int k = 0; k < 2; k++) {
         d[k] = retex_uv_stats_difference(from->mean[k], into->mean[k], periodic[k]);

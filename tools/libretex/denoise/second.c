@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/parallel.h>
 
 #include "denoise/features.h"
@@ -246,6 +247,7 @@ static void mix_choices(float light[3], const Scratch *work, int signal, const u
         for (int u = x - 1; u <= x + 1; u++)
             if (valid[denoise_at(u, v)] > 0)
                 counts[choices[v * DENOISE_TILE + u]]++, count++;
+    RETEX_ASSERT(count > 0); /* the pixel was filtered itself */
     for (int c = 0; c < 3; c++) {
         const size_t p = denoise_at(x, y);
         float sum = (float)counts[0] * 0.5f * (first->half[0][c][p] + first->half[1][c][p]);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "denoise/features.h"
 #include "denoise/fireflies.h"
@@ -127,6 +128,7 @@ static void plan_window(RetexDenoiseScratch *work, int radius)
             for (int dx = -radius; dx <= radius; dx++)
                 if (dx * dx + dy * dy == squared)
                     work->window[work->nwindow++] = (RetexDenoiseDisplacement){dx, dy};
+    RETEX_ASSERT(work->nwindow <= WINDOW_MOST && work->window[0].dx == 0 && work->window[0].dy == 0);
 }
 
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
@@ -180,6 +182,7 @@ static void load_members(RetexTileSignal *r, RetexDenoiseScratch *work, const Re
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
         int to = m->cluster >= 0 ? 0 : image++;
+        RETEX_ASSERT(3 * to + 2 < r->nplanes); /* of clusters there is one image, the first */
         for (int c = 0; c < 3; c++) {
             retex_denoise_load_plane(work->spare, d->set, m->part, c, x0, y0);
             retex_denoise_add_plane(r->planes[3 * to + c], r->half[0][c], work->spare, m->bright);
@@ -454,6 +457,7 @@ static void search_part(const RetexDenoiser *d, RetexDenoiseScratch *work, const
 {
     const RetexTileSignal *r = &work->signal;
     const RetexDenoiseImages images = {r->nlit, r->lit_planes, r->lit_sums};
+    RETEX_ASSERT(count <= DENOISE_WEIGHTS && first + count <= work->nwindow);
     const int are_kept = r->nlit || r->nclusters;
     for (int n = 0; n < count; n += DENOISE_BATCH) {
         RetexDenoiseBatch batch = {.count = count - n < DENOISE_BATCH ? count - n : DENOISE_BATCH};

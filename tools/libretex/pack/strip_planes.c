@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "pack/restore.h"
 #include "pack/scratch.h"
@@ -39,6 +40,7 @@ static int reserve_runs(int part, int strip, RetexPackScratch *s, RetexError *er
     const RetexPackPart *p = &s->pack->parts[part];
     RetexPackPlaneStrip *own = &s->cached[part].planes;
     const size_t pixels = (size_t)p->width * RETEX_PACK_STRIP_ROWS;
+    RETEX_ASSERT(p->channels >= 3 && p->present == part); /* a part of means tells it of itself, by its coverage */
     if (own->runs_strip == strip)
         return 0;
     own->runs_strip = -1;
@@ -100,6 +102,7 @@ static int reserve_numbers(int part, int strip, int c, RetexPackScratch *s, Rete
         plane.present = s->cached[p->present].planes.present;
         plane.runs = &s->cached[p->present].planes.runs;
     }
+    RETEX_ASSERT(map->kind != RETEX_PACK_MAP_LATTICE || (p->sigma >= 0 && p->present >= 0)); /* its runs are read */
     if (!code && map->kind == RETEX_PACK_MAP_LATTICE) {
         code = reserve_shift(part, strip, c, plane.runs, s, err);
         plane.shift = s->shift;

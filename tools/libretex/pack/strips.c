@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, RetexError *err)
 {
@@ -125,6 +126,7 @@ static int decode_blocks(int part, int line, RetexPackCachedStrip *cached, const
     const int blocks = line / RETEX_PACK_BLOCK_ROWS, first = blocks * RETEX_PACK_BLOCK_ROWS;
     const size_t row = (size_t)p->width * (size_t)p->channels;
     RetexError why = {0};
+    RETEX_ASSERT(cached->strip >= 0 && cached->jpeg); /* of the strip that is open */
     if (cached->blocks == blocks || cached->is_black)
         return 0;
     cached->blocks = -1;

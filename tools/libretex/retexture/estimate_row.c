@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "retexture/polynomial_factors.h"
 #include "retexture/polynomial_finishes.h"
@@ -100,8 +101,11 @@ static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, floa
                      float *restrict change, float *restrict derivatives, float *restrict light)
 {
     int rows[RETEX_MAX_FACTORS + 1];
-    for (int k = 0; k < m->nfactors; k++)
+    for (int k = 0; k < m->nfactors; k++) {
+        RETEX_ASSERT(m->slots[k] >= 0); /* terms are apart: none has a product of reduced factors */
         rows[k] = derivative_row(set, m->slots[k]);
+        RETEX_ASSERT(rows[k] < row_count(set));
+    }
     for (size_t i = 0; i < n; i++) {
         float radiance = m->radiance[i];
         light[i] = 0;
@@ -286,6 +290,7 @@ int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const 
     const RetexPolynomial *p = row->polynomial;
     const RetexSet *set = p->set;
     const size_t n = row_numbers(set), textures = (size_t)texture_count(set);
+    RETEX_ASSERT(p->apart == POLYNOMIAL_APART);
     float *sum = scratch, *change = scratch + n, *derivatives = scratch + 2 * n,
           *weights = derivatives + (size_t)row_count(set) * n, *rest = weights + RETEX_FINISHES_MAX * n;
     int code = RETEX_OK;

@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "base/params.h"
 #include "set/set.h"
@@ -27,6 +28,9 @@ static int height_of(const RetexSet *set, int footprint)
 
 static RetexKeptRow *row_of(const RetexKeptSamples *kept, int footprint, int finish, int y)
 {
+    RETEX_ASSERT(kept->set->footprints[footprint].target == kept->target); /* others have no rows */
+    RETEX_ASSERT(finish < kept->set->targets[kept->target].nfinishes);
+    RETEX_ASSERT(y >= 0 && y < height_of(kept->set, footprint)); /* rows of the footprint's size */
     return &kept->rows[footprint * FINISHES + (finish < 0 ? 0 : 1 + finish)][y];
 }
 
@@ -123,6 +127,8 @@ void retex_kept_samples_add(RetexKeptSamples *kept, int footprint, int finish, i
 {
     RetexKeptRow *own = row_of(kept, footprint, finish, y);
     const size_t bytes = row_bytes(span), old = row_bytes(own->span);
+    RETEX_ASSERT(!own->colors == !old); /* what is not empty is in memory */
+    RETEX_ASSERT(!bytes || row);
     kept->made++;
     if (own->colors) {
         free(own->colors);

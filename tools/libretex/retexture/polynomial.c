@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "retexture/combine_kernel.h"
 #include "retexture/enlarge.h"
@@ -202,6 +203,7 @@ static const float black_row[1]; /* marks a row that is 0 everywhere */
 
 static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
 {
+    RETEX_ASSERT(slot < retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups);
     RetexRowBuffer *buffer = &row->buffers[slot];
     if (!buffer->values && !(buffer->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *buffer->values)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
@@ -253,6 +255,8 @@ static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int 
         return RETEX_ENOMEM;
     if (factor.kind == POLYNOMIAL_GATE)
         return make_gates(row, factor.index, y, err);
+    /* what is smaller than the picture has been made when the polynomial was opened */
+    RETEX_ASSERT(small->pixels || retex_polynomial_factor_image(p, factor)->width == width);
     row->made[slot] = values;
     row->spans[slot] = (RetexRowSpan){0, width};
     if (small->pixels) {
@@ -278,6 +282,8 @@ static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int 
     }
     if (!code && (!row->made[slot] || retex_span_is_empty(row->spans[slot])))
         row->made[slot] = black_row;
+    RETEX_ASSERT(code || row->made[slot] == black_row ||
+                 retex_span_holds(row->spans[slot], row->made[slot], width, 3));
     return code;
 }
 
@@ -339,6 +345,7 @@ static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup
 {
     const RetexPolynomial *p = row->polynomial;
     const int slot = retex_polynomial_slot_count(p->set) + (int)(group - p->groups);
+    RETEX_ASSERT(group->nterms > 0 && row->count < p->set->nterms);
     RetexMonomial *m = &row->monomials[row->count];
     m->term = group->terms[0];
     int code = radiance_row(row, group, slot, y, &m->radiance, err), black = !m->radiance;
@@ -371,6 +378,7 @@ int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
     int code = RETEX_OK;
+    RETEX_ASSERT(y >= 0 && y < p->set->height);
     retex_polynomial_row_begin(row);
     for (int g = 0; g < p->ngroups && !code; g++)
         code = make_group(row, &p->groups[g], y, err);

@@ -2,6 +2,7 @@
 #include "retexture/polynomial_factors.h"
 
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "retexture/kept_samples.h"
 #include "retexture/mixture_kernel.h"
@@ -21,9 +22,24 @@ int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term, c
     return weight[0] != 0 || weight[1] != 0 || weight[2] != 0;
 }
 
+/* Whether a factor is one that has a row, with an index of the list of its kind. */
+static int has_slot(const RetexSet *set, RetexFactor factor)
+{
+    const int finish = retex_quantity_finish(factor.quantity);
+    const int count = factor.kind == RETEX_FACTOR_FOOTPRINT ? set->nfootprints
+                      : factor.kind == RETEX_FACTOR_MIXTURE ? set->nmixtures
+                      : factor.kind == RETEX_FACTOR_IMAGE   ? set->nparts
+                      : factor.kind == POLYNOMIAL_GATE      ? set->ntargets
+                                                            : 0; /* of parameters, which are numbers */
+    return factor.index >= 0 && factor.index < count && finish < RETEX_FINISHES_MAX &&
+           (factor.kind != RETEX_FACTOR_IMAGE || factor.quantity == RETEX_QUANTITY_COLOR) &&
+           (factor.kind != POLYNOMIAL_GATE || finish >= 0);
+}
+
 /* Slots begin with those of a set's own factors; each quantity beyond has as many again for textures. */
 int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
 {
+    RETEX_ASSERT(has_slot(set, factor));
     const int textures = set->nfootprints + set->nmixtures, finish = retex_quantity_finish(factor.quantity);
     const int slot = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
                      : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
@@ -39,6 +55,7 @@ RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
 {
     const int textures = set->nfootprints + set->nmixtures, own = textures + set->nparts;
     RetexFactor factor;
+    RETEX_ASSERT(slot >= 0 && slot < retex_polynomial_slot_count(set));
     if (slot >= own + (1 + RETEX_FINISHES_MAX) * textures) {
         const int gate = slot - own - (1 + RETEX_FINISHES_MAX) * textures;
         factor = retex_factor(POLYNOMIAL_GATE, gate / RETEX_FINISHES_MAX);
@@ -133,6 +150,7 @@ const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, RetexF
 static void refill(RetexRowBuffer *buffer, RetexRowSpan span)
 {
     const RetexRowSpan old = buffer->filled;
+    RETEX_ASSERT(retex_span_is_empty(span) || span.begin >= 0);
     if (!retex_span_is_empty(old))
         memset(buffer->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *buffer->values);
     buffer->filled = span;
@@ -141,6 +159,7 @@ static void refill(RetexRowBuffer *buffer, RetexRowSpan span)
 /* The texture of a footprint with a finish, or with that which the target has. */
 static const RetexTexture *texture_of(const RetexTexture *texture, int finish)
 {
+    RETEX_ASSERT(!texture || finish < 0 || (texture->finishes && finish < texture->finishes->count));
     return texture && finish >= 0 ? texture->finishes->colors[finish] : texture;
 }
 
@@ -229,6 +248,7 @@ int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reade
                                  RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
                                  RetexError *err)
 {
+    RETEX_ASSERT(mixture.kind == RETEX_FACTOR_MIXTURE && mixture.index < p->set->nmixtures);
     const RetexMixture *m = &p->set->mixtures[mixture.index];
     RetexFactor footprint = {RETEX_FACTOR_FOOTPRINT, mixture.quantity, 0};
     const int single = has_single_weights(p->set, m), numbers = single ? 1 : 3;
@@ -315,6 +335,7 @@ int retex_polynomial_further_row(const RetexPolynomial *p, RetexRowReader *reade
     const float *q = p->set->further_ratio;
     const int n = p->set->further_hits;
     Originals of = {p->set, reader};
+    RETEX_ASSERT(factor.quantity == RETEX_QUANTITY_FURTHER && n > 0);
     int code = factor.kind == RETEX_FACTOR_FOOTPRINT
                    ? copy_original_row(&of, factor.index, y, values, err)
                    : retex_polynomial_mixture_row(p, reader, factor, y, original_row, &of, weights, values, err);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/parallel.h>
 
 #include "base/jobs.h"
@@ -164,6 +165,7 @@ static int add_footprint(const RetexPolynomial *p, RetexRowReader *reader, int f
                          RetexError *err)
 {
     const RetexFootprint *f = &p->set->footprints[footprint];
+    RETEX_ASSERT(p->textures && p->textures[f->target] && p->textures[f->target]->finishes);
     const int shown = p->shown[f->target];
     float rgba[4 * SPAN_PIXELS];
     RetexFootprintRow from;
@@ -201,6 +203,7 @@ static int add_footprints(const RetexPolynomial *p, RetexRowReader *reader, int 
 
 static int scale_index(int scale)
 {
+    RETEX_ASSERT(scale == 2 || scale == 4 || scale == RETEX_SCALE_MAX);
     return scale == 2 ? 0 : scale == 4 ? 1 : 2;
 }
 
@@ -294,6 +297,8 @@ int retex_polynomial_gate_rows(const RetexPolynomial *p, RetexRowReader *reader,
     const int width = p->set->width, sampled = p->samples ? retex_samples_find(p->samples, target, -1, -1) : -1;
     const int is_signed = p->set->targets[target].normal_tilt > 0;
     const float *rgb = rows[0];
+    RETEX_ASSERT(p->mapped[target] >= 2 && p->mapped[target] <= RETEX_FINISHES_MAX);
+    RETEX_ASSERT(!is_signed || p->mapped[target] == 3); /* normals: one, and that tilted along u and along v */
     const int is_sampled = sampled >= 0 && !(p->textures && p->textures[target]);
     const int code = is_sampled ? retex_row_reader_sample(reader, sampled, y, &rgb, err)
                                 : retex_polynomial_gate_row(p, reader, target, y, scratch, rows[0], err);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/parallel.h>
 
 #include "retexture/combine_kernel.h"
@@ -71,6 +72,7 @@ static int add_term(RetexPolynomial *p, int number, RetexError *err)
     if (!group->scale || !group->nradiances)
         group->radiances[group->nradiances++] = radiance;
     group->terms[group->nterms++] = number;
+    RETEX_ASSERT(!group->scale || group->nradiances == 1); /* terms with a product share one radiance */
     return RETEX_OK;
 }
 
@@ -103,10 +105,13 @@ static int reduced_row(const ProductWork *work, ProductThread *own, RetexFactor 
     if (!own->rows[slot] && !(own->rows[slot] = malloc(sizeof(float) * 3 * (size_t)product->width)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (image->pixels) {
+        RETEX_ASSERT(retex_set_scale(p->set, image) % work->group->scale == 0); /* the group has the finest of all */
         const int ratio = retex_set_scale(p->set, image) / work->group->scale;
         retex_enlarge_rows(image, ratio, product->width, y, y + 1, own->rows[slot]);
     } else { /* an image that has the group's size */
         const float *from;
+        RETEX_ASSERT(factor.kind == RETEX_FACTOR_IMAGE &&
+                     p->set->parts[factor.index].image.width == product->width);
         int code = retex_row_reader_get(own->reader, factor.index, y, &from, err);
         *row = NULL;
         if (code || !from)
@@ -124,6 +129,7 @@ static int reduced_row(const ProductWork *work, ProductThread *own, RetexFactor 
 /* Gives all pixels of a row one colour; it has been filled so before, or is 0. */
 static void fill_row(float *row, const float color[3], size_t count)
 {
+    RETEX_ASSERT(memcmp(row, row + count - 3, 3 * sizeof *row) == 0); /* the first pixel tells of all */
     for (size_t i = 0; i < count && (i || memcmp(row, color, 3 * sizeof *color) != 0); i += 3)
         memcpy(row + i, color, 3 * sizeof *color);
 }
@@ -224,6 +230,8 @@ int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *e
             code = add_term(p, t, err);
     for (int g = 0; g < p->ngroups; g++)
         p->groups[g].weighted = p->groups[g].weighted && !is_one_plain_part(&p->groups[g]);
+    for (int g = 0; g < p->ngroups && !code; g++)
+        RETEX_ASSERT(p->groups[g].weighted || p->groups[g].nradiances == 1); /* else one would be read of several */
     for (int g = 0; g < p->ngroups && !code; g++)
         if (p->groups[g].scale)
             code = make_product(p, &p->groups[g], nthreads, err);

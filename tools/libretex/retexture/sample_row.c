@@ -3,13 +3,16 @@
 
 #include <math.h>
 #include <string.h>
+#include <retex/host/assert.h>
 
 #include "set/set.h"
+#include "texture/pyramid.h"
 
 #define SPAN_PIXELS 1024 /* pixels filtered in one call */
 
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
+    RETEX_ASSERT(footprint->quadrant >= 0 && footprint->quadrant <= RETEX_QUADRANTS);
     if (retex_footprint_has_axes(set, footprint))
         return (RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + footprint->quadrant);
     if (footprint->kind == RETEX_FOOTPRINT_BROAD || footprint->kind == RETEX_FOOTPRINT_INTERREFLECTION)
@@ -24,6 +27,7 @@ int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, con
                              const RetexFootprint *footprint, int y, int with_albedo, RetexError *err)
 {
     const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
+    RETEX_ASSERT(uv->channels == 3 && spread->width == uv->width && spread->height == uv->height);
     *row = (RetexFootprintRow){.spreads = spread->channels, .width = uv->width};
     int code = retex_row_reader_get_span(reader, footprint->uv, y, &row->uv, &row->span, err);
     if (code || !row->uv)
@@ -40,6 +44,7 @@ int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, con
 RetexFootprintRow retex_footprint_row_cut(const RetexFootprintRow *row, RetexRowSpan span)
 {
     const size_t begin = (size_t)span.begin;
+    RETEX_ASSERT(row->uv && span.begin >= 0 && span.begin <= span.end && span.end <= row->width);
     return (RetexFootprintRow){.uv = row->uv + 3 * begin,
                                .spread = row->spread + (size_t)row->spreads * begin,
                                .albedo = row->albedo ? row->albedo + 3 * begin : NULL,
@@ -60,6 +65,7 @@ void retex_sample_row(const RetexTexture *texture, RetexTextureFilter filter, co
                       float *restrict rgb)
 {
     float rgba[4 * SPAN_PIXELS];
+    RETEX_ASSERT(row->albedo || retex_texture_is_opaque(texture)); /* it shows where the texture does not */
     if (!row->albedo) {
         retex_texture_filter(texture, filter, row->uv, row->spread, row->spreads, (size_t)row->width, rgb, 3);
         return;

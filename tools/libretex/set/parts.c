@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
 #include <retex/parallel.h>
@@ -57,8 +58,11 @@ void retex_set_view_free(RetexSetView *view)
 static void renumber(void *context, RetexPartUse use, int user, int *part)
 {
     const int *place = context; /* the number of each part in the view, or -1 */
-    (void)use, (void)user;
+    const int may_lack = use != RETEX_PART_RADIANCE && use != RETEX_PART_IMAGE && use != RETEX_PART_WEIGHT;
+    (void)user;
     *part = place[*part];
+    RETEX_ASSERT(*part >= 0 || may_lack);
+    (void)may_lack;
 }
 
 int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err)

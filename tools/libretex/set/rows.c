@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include <retex/host/assert.h>
 #include <retex/host/band_store.h>
 
 #include "set/samples.h"
@@ -92,8 +93,11 @@ static int stored_row(const float **row, Backing *backing, int index, int image,
 int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const float **row, RetexRowSpan *span,
                               RetexError *err)
 {
+    RETEX_ASSERT(part >= 0 && part < reader->set->nparts); /* an index of the set's parts, not of a file's */
     const RetexPart *p = &reader->set->parts[part];
     Backing *backing = &reader->of_set;
+    RETEX_ASSERT(y >= 0 && y < p->image.height); /* of the part, which may be smaller than the picture */
+    RETEX_ASSERT(!p->store_image || reader->set->store);
     *span = (RetexRowSpan){0, p->image.width};
     if (p->image.pixels) {
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
@@ -103,7 +107,11 @@ int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const flo
         return stored_row(row, backing, part, p->store_image - 1, &p->image, y, err);
     if (!backing->reader)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    return backing->source->read_row(backing->reader, part, y, row, span, err);
+    const int code = backing->source->read_row(backing->reader, part, y, row, span, err);
+    RETEX_ASSERT(code || !*row || retex_span_holds(*span, *row, p->image.width, p->image.channels));
+    if (!code && !*row)
+        *span = (RetexRowSpan){0, 0};
+    return code;
 }
 
 int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **row, RetexError *err)
@@ -115,6 +123,8 @@ int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **
 int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const float **row, RetexError *err)
 {
     const RetexSamples *samples = reader->samples;
+    RETEX_ASSERT(footprint >= 0 && footprint < samples->nimages); /* of the samples, which have more than footprints */
+    RETEX_ASSERT(retex_samples_have(samples, footprint));
     const RetexImage *image = &samples->images[footprint];
     Backing *backing = &reader->of_samples;
     if (image->pixels) {

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <jansson.h>
+#include <retex/host/assert.h>
 #include <retex/host/set_build.h>
 
 #include "base/params.h"
@@ -32,6 +33,9 @@ int retex_samples_alloc(RetexSamples **result, int nimages, RetexError *err)
 
 int retex_samples_add(RetexSamples *samples, RetexSampleFootprint of, RetexError *err)
 {
+    RETEX_ASSERT(samples->nimages >= samples->nfootprints); /* those of footprints come first, by their numbers */
+    RETEX_ASSERT(of.footprint >= -1 && of.footprint < samples->nfootprints);
+    RETEX_ASSERT(of.footprint >= 0 || of.finish < 0); /* a gate is one image of all finishes */
     const size_t count = (size_t)samples->nimages + 2;
     RetexImage *images = realloc(samples->images, count * sizeof *images);
     samples->images = images ? images : samples->images;
