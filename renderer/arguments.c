@@ -326,26 +326,48 @@ static void check_lamps(const Arguments *a)
                 "--list-targets, --list-lamps, --list-finishes, --list-cameras and --trace-pixel exclude each other");
 }
 
+/* An option, and whether it was given. */
+typedef struct Given {
+    int is_given;
+    const char *name;
+} Given;
+
+/* The name of the first that was given, or NULL. */
+static const char *first_given(const Given *given, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (given[k].is_given)
+            return given[k].name;
+    return NULL;
+}
+
+/* The option that asks for an answer in place of a picture, but for --live; or NULL. */
+static const char *question_of(const Arguments *a)
+{
+    const Given questions[] = {{a->list, "list-targets"},
+                               {a->list_lamps, "list-lamps"},
+                               {a->list_finishes, "list-finishes"},
+                               {a->list_cameras, "list-cameras"},
+                               {a->tracing, "trace-pixel"}};
+    return first_given(questions, sizeof questions / sizeof *questions);
+}
+
 /* What is no matter of pictures alone. */
 static void check_live(Arguments *a)
 {
     const RenderParams *r = &a->render;
-    const char *other = a->list            ? "list-targets"
-                        : a->list_lamps    ? "list-lamps"
-                        : a->list_finishes ? "list-finishes"
-                        : a->list_cameras  ? "list-cameras"
-                        : a->tracing       ? "trace-pixel"
-                        : a->variants      ? "variants"
-                        : a->control       ? "control"
-                        : r->control_data  ? "control-data"
-                        : a->denoise       ? "denoise"
-                        : a->aov_dir       ? "aov-dir"
-                        : r->aovs          ? "aov"
-                        : a->mattes        ? "mattes"
-                        : r->noise > 0     ? "noise"
-                        : r->crop[2]       ? "crop"
-                        : r->resume        ? "resume"
-                                           : NULL;
+    const Given others[] = {{question_of(a) != NULL, question_of(a)},
+                            {a->variants != NULL, "variants"},
+                            {a->control != NULL, "control"},
+                            {r->control_data, "control-data"},
+                            {a->denoise, "denoise"},
+                            {a->aov_dir != NULL, "aov-dir"},
+                            {r->aovs != 0, "aov"},
+                            {a->mattes != NULL, "mattes"},
+                            {r->noise > 0, "noise"},
+                            {r->crop[2] != 0, "crop"},
+                            {r->resume, "resume"}};
+    const char *other = first_given(others, sizeof others / sizeof *others);
     if (!a->live)
         return;
     if (other)
@@ -423,86 +445,102 @@ static _Noreturn void surplus_scene(const Arguments *a)
     cli_die(a->cli, "one scene at a time: `%s` and `%s`%s", a->scene, a->cli->value, forgotten);
 }
 
-void parse_arguments(Arguments *a)
+/* The words of the command line. */
+static void read_words(Arguments *a)
 {
-    Cli *cli = a->cli;
     const CliOption *o;
-    cli->options = options;
-    const RenderParams defaults = RENDER_PARAMS_INIT;
-    a->render = defaults;
-    a->render.sharp = 0; /* 0 until --clusters is given */
-    a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
-    while ((o = cli_next(cli))) {
+    while ((o = cli_next(a->cli))) {
         if (o != &cli_positional)
-            cli_take(cli, o, a);
-        else if (take_ini_word(a, cli->value))
+            cli_take(a->cli, o, a);
+        else if (take_ini_word(a, a->cli->value))
             continue;
         else if (a->scene)
             surplus_scene(a);
         else
-            a->scene = cli->value;
+            a->scene = a->cli->value;
     }
     a->named = a->ntargets > 0;
-    check_declares(a);
-    take_ini_options(a);
-    add_preset(a);
-    if (!a->scene)
-        cli_die(cli, "no scene given; try --help");
+}
+
+static void choose_clusters(Arguments *a, const RenderParams *defaults)
+{
     if (a->render.paper && a->render.sharp)
-        cli_die(cli, "--layout paper has no clusters: no --clusters");
+        cli_die(a->cli, "--layout paper has no clusters: no --clusters");
     if (!a->render.sharp)
-        a->render.sharp = defaults.sharp;
-    if (a->variants)
-        batch_open(&a->batch, cli, a->variants);
-    else if (a->frames.step || a->animation.last_frame >= 0)
-        a->keep_going = a->batch.keep_going, a->batch.keep_going = 0;
-    if (!a->variants)
-        batch_check_options(&a->batch, cli, "variants");
-    if ((a->nreplacements || a->variants) && !a->ntargets) { /* --replace and --variants name the targets */
-        for (int k = 0; k < a->nreplacements; k++)
-            a->targets[a->ntargets++] = a->replacements[k].target;
-        for (int k = 0; k < a->batch.table.ncolumns; k++)
-            add_target(a, a->batch.table.columns[k]);
+        a->render.sharp = defaults->sharp;
+}
+
+/* The table of --variants. --keep-going is of its rows, or of frames. */
+static void open_variants(Arguments *a)
+{
+    if (a->variants) {
+        batch_open(&a->batch, a->cli, a->variants);
+        return;
     }
-    if (a->nreplacements || a->variants)
-        a->render.plain = 1;
-    if (a->variants && cli->output)
-        cli_die(cli, "the table of --variants names the outputs: no -o");
-    if (a->variants && (answers(a) || a->render.aovs || a->stats))
-        cli_die(cli, "--variants makes pictures only: no --list-targets, --list-lamps, --list-finishes, "
-                     "--list-cameras, --trace-pixel, --aov or "
-                     "--stats");
-    if (a->control && (!a->nreplacements || a->variants))
-        cli_die(cli, "--control needs --replace, without --variants");
-    if (a->control && (a->render.aovs || a->render.control_data))
-        cli_die(cli, "--control makes a picture only: no --aov or --control-data");
-    check_live(a);
-    name_lamps(a);
-    name_finished(a);
-    check_denoise(a);
-    check_lamps(a);
-    check_finishes(a);
-    check_noise(a);
-    check_resume(a);
-    check_mattes(a);
-    if (a->aov_dir && (answers(a) || a->variants || a->control))
-        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --list-cameras, "
-                     "--trace-pixel, "
-                     "--variants or "
-                     "--control");
-    if (a->aov_dir && !a->render.aovs)
+    if (a->frames.step || a->animation.last_frame >= 0)
+        a->keep_going = a->batch.keep_going, a->batch.keep_going = 0;
+    batch_check_options(&a->batch, a->cli, "variants");
+}
+
+/* Without -t, --replace and --variants name the targets. Both make pictures only. */
+static void name_replaced(Arguments *a)
+{
+    if (!a->nreplacements && !a->variants)
+        return;
+    a->render.plain = 1;
+    if (a->ntargets)
+        return;
+    for (int k = 0; k < a->nreplacements; k++)
+        a->targets[a->ntargets++] = a->replacements[k].target;
+    for (int k = 0; k < a->batch.table.ncolumns; k++)
+        add_target(a, a->batch.table.columns[k]);
+}
+
+static void check_variants(const Arguments *a)
+{
+    if (!a->variants)
+        return;
+    if (a->cli->output)
+        cli_die(a->cli, "the table of --variants names the outputs: no -o");
+    if (answers(a) || a->render.aovs || a->stats)
+        cli_die(a->cli, "--variants makes pictures only: no --list-targets, --list-lamps, --list-finishes, "
+                        "--list-cameras, --trace-pixel, --aov or --stats");
+}
+
+static void check_control(const Arguments *a)
+{
+    if (!a->control)
+        return;
+    if (!a->nreplacements || a->variants)
+        cli_die(a->cli, "--control needs --replace, without --variants");
+    if (a->render.aovs || a->render.control_data)
+        cli_die(a->cli, "--control makes a picture only: no --aov or --control-data");
+}
+
+static void check_aov_dir(Arguments *a)
+{
+    if (!a->aov_dir)
+        return;
+    if (answers(a) || a->variants || a->control)
+        cli_die(a->cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, "
+                        "--list-cameras, --trace-pixel, --variants or --control");
+    if (!a->render.aovs)
         a->render.aovs = RETEX_AOV_ALL;
-    const char *answer = a->list            ? "list-targets"
-                         : a->list_lamps    ? "list-lamps"
-                         : a->list_finishes ? "list-finishes"
-                         : a->list_cameras  ? "list-cameras"
-                         : a->tracing       ? "trace-pixel"
-                         : a->live          ? "live"
-                                            : NULL;
-    if (answer && cli->output)
-        cli_die(cli, "--%s goes to standard output: no -o", answer);
+}
+
+static void check_answer(const Arguments *a)
+{
+    const char *question = question_of(a), *answer = question ? question : a->live ? "live" : NULL;
+    if (answer && a->cli->output)
+        cli_die(a->cli, "--%s goes to standard output: no -o", answer);
     if (answer && a->stats)
-        cli_die(cli, "--%s makes no picture, so there are no --stats", answer);
+        cli_die(a->cli, "--%s makes no picture, so there are no --stats", answer);
+}
+
+/* What all tools have in common, to where the scene's reader and the renderer look for it. */
+static void hand_on_common(Arguments *a)
+{
+    Cli *cli = a->cli;
     a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
@@ -513,4 +551,36 @@ void parse_arguments(Arguments *a)
     a->sdl.max_steps = cli->limits.steps;
     a->sdl.max_memory = SIZE_MAX; /* only the budget limits memory */
     a->render.progress = progress, a->render.progress_context = cli;
+}
+
+void parse_arguments(Arguments *a)
+{
+    const RenderParams defaults = RENDER_PARAMS_INIT;
+    a->cli->options = options;
+    a->render = defaults;
+    a->render.sharp = 0; /* 0 until --clusters is given */
+    a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
+    read_words(a);
+    check_declares(a);
+    take_ini_options(a);
+    add_preset(a);
+    if (!a->scene)
+        cli_die(a->cli, "no scene given; try --help");
+    choose_clusters(a, &defaults);
+    open_variants(a);
+    name_replaced(a);
+    check_variants(a);
+    check_control(a);
+    check_live(a);
+    name_lamps(a);
+    name_finished(a);
+    check_denoise(a);
+    check_lamps(a);
+    check_finishes(a);
+    check_noise(a);
+    check_resume(a);
+    check_mattes(a);
+    check_aov_dir(a);
+    check_answer(a);
+    hand_on_common(a);
 }
