@@ -36,47 +36,73 @@ static int has_slot(const RetexSet *set, RetexFactor factor)
            (factor.kind != POLYNOMIAL_GATE || finish >= 0);
 }
 
-/* Slots begin with those of a set's own factors; each quantity beyond has as many again for textures. */
-int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
+/* Slots of textures, footprints before mixtures, come in a block for each quantity; behind the first block are parts,
+ * behind the last one gates. With 3 footprints, 1 mixture and 5 parts:
+ *     0..3 colours, 4..8 parts, 9..12 FURTHER, 13..16 of finish 0, and so on: mixture 0 of finish 0 is slot 16. */
+_Static_assert(RETEX_QUANTITY_COLOR == 0 && RETEX_QUANTITIES == 2, "the first block is of colours, finishes follow");
+
+static int textures_of(const RetexSet *set)
 {
-    RETEX_ASSERT(has_slot(set, factor));
-    const int textures = set->nfootprints + set->nmixtures, finish = retex_quantity_finish(factor.quantity);
-    const int slot = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
-                     : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
-                                                           : textures + factor.index;
-    if (factor.kind == POLYNOMIAL_GATE)
-        return (2 + RETEX_FINISHES_MAX) * textures + set->nparts + factor.index * RETEX_FINISHES_MAX + finish;
-    return finish >= 0                                   ? (2 + finish) * textures + set->nparts + slot
-           : factor.quantity == RETEX_QUANTITY_FURTHER ? textures + set->nparts + slot
-                                                         : slot;
+    return set->nfootprints + set->nmixtures;
 }
 
-RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
+static int first_gate(const RetexSet *set)
 {
-    const int textures = set->nfootprints + set->nmixtures, own = textures + set->nparts;
-    RetexFactor factor;
-    RETEX_ASSERT(slot >= 0 && slot < retex_polynomial_slot_count(set));
-    if (slot >= own + (1 + RETEX_FINISHES_MAX) * textures) {
-        const int gate = slot - own - (1 + RETEX_FINISHES_MAX) * textures;
-        factor = retex_factor(POLYNOMIAL_GATE, gate / RETEX_FINISHES_MAX);
-        factor.quantity = POLYNOMIAL_FINISHED(gate % RETEX_FINISHES_MAX);
-        return factor;
-    }
-    const int beyond = slot >= own ? (slot - own) / textures : -1,
-              number = slot >= own ? (slot - own) % textures : slot;
-    factor = number < set->nfootprints ? retex_factor(RETEX_FACTOR_FOOTPRINT, number)
-             : number < textures       ? retex_factor(RETEX_FACTOR_MIXTURE, number - set->nfootprints)
-                                       : retex_factor(RETEX_FACTOR_IMAGE, number - textures);
-    factor.quantity = beyond < 0    ? RETEX_QUANTITY_COLOR
-                      : beyond == 0 ? RETEX_QUANTITY_FURTHER
-                                    : POLYNOMIAL_FINISHED(beyond - 1);
-    return factor;
+    return (RETEX_QUANTITIES + RETEX_FINISHES_MAX) * textures_of(set) + set->nparts;
 }
 
 int retex_polynomial_slot_count(const RetexSet *set)
 {
-    return (2 + RETEX_FINISHES_MAX) * (set->nfootprints + set->nmixtures) + set->nparts +
-           RETEX_FINISHES_MAX * RETEX_MAX_TARGETS;
+    return first_gate(set) + RETEX_FINISHES_MAX * RETEX_MAX_TARGETS;
+}
+
+static RetexFactor with_quantity(RetexFactor factor, int quantity)
+{
+    factor.quantity = (RetexQuantity)quantity;
+    return factor;
+}
+
+RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
+{
+    const int textures = textures_of(set), gate = slot - first_gate(set);
+    RETEX_ASSERT(slot >= 0 && slot < retex_polynomial_slot_count(set));
+    if (slot >= textures && slot < textures + set->nparts)
+        return retex_factor(RETEX_FACTOR_IMAGE, slot - textures);
+    if (gate >= 0)
+        return with_quantity(retex_factor(POLYNOMIAL_GATE, gate / RETEX_FINISHES_MAX),
+                             POLYNOMIAL_FINISHED(gate % RETEX_FINISHES_MAX));
+    const int number = slot < textures ? slot : slot - set->nparts; /* among textures of all quantities */
+    const int texture = number % textures;
+    const RetexFactor factor = texture < set->nfootprints
+                                   ? retex_factor(RETEX_FACTOR_FOOTPRINT, texture)
+                                   : retex_factor(RETEX_FACTOR_MIXTURE, texture - set->nfootprints);
+    return with_quantity(factor, number / textures);
+}
+
+static int find_slot(const RetexSet *set, RetexFactor factor)
+{
+    if (factor.kind == RETEX_FACTOR_IMAGE)
+        return textures_of(set) + factor.index;
+    if (factor.kind == POLYNOMIAL_GATE)
+        return first_gate(set) + factor.index * RETEX_FINISHES_MAX + retex_quantity_finish(factor.quantity);
+    const int texture = factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index : factor.index;
+    const int parts_before = factor.quantity == RETEX_QUANTITY_COLOR ? 0 : set->nparts;
+    return (int)factor.quantity * textures_of(set) + parts_before + texture;
+}
+
+/* Whether the way back leads to the same factor. */
+static int is_slot_of(const RetexSet *set, int slot, RetexFactor factor)
+{
+    const RetexFactor back = retex_polynomial_factor(set, slot);
+    return back.kind == factor.kind && back.quantity == factor.quantity && back.index == factor.index;
+}
+
+int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
+{
+    RETEX_ASSERT(has_slot(set, factor));
+    const int slot = find_slot(set, factor);
+    RETEX_ASSERT(is_slot_of(set, slot, factor));
+    return slot;
 }
 
 /* Whether the textures of a factor of quantity FURTHER are all original: then it is 1. */
