@@ -57,34 +57,57 @@ static void share_light(RetexPolynomial *p)
                 retex_polynomial_beyond(p->parameters[i][c], p->set->parameters[i].kept[c], p->common[c]);
 }
 
-/* Finds what is edited. Corrections, and the picture of part 0, are those of all cross terms. */
-static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
+/* Finds the targets that have a texture or samples. Returns their number. */
+static int find_edited_targets(RetexPolynomial *p)
 {
     const RetexSet *set = p->set;
-    int count = 0, changed = 0;
+    int count = 0;
     for (int f = 0; f < set->nfootprints; f++) {
         const int t = set->footprints[f].target;
         p->edited[t] |= (p->textures && p->textures[t]) || (p->samples && retex_samples_have(p->samples, f));
     }
     for (int t = 0; t < set->ntargets; t++)
         count += p->edited[t];
-    const int corrected = p->apart != POLYNOMIAL_APART && p->cross == ALL_CROSS_TERMS;
-    p->lamps = retex_set_has_role(set, RETEX_ROLE_LAMP);
+    return count;
+}
+
+/* Sets the values of parameters: those that are given, and the weight of corrections of edited targets, of which there
+ * are so many. Returns 1 if any is not as rendered, corrections left out. */
+static int set_parameters(RetexPolynomial *p, const float *given, int is_corrected, int nedited)
+{
+    const RetexSet *set = p->set;
+    int is_changed = 0;
     for (int i = 0; i < set->nparameters; i++) {
         const RetexParameter *parameter = &set->parameters[i];
-        const int corrects = parameter->kind == RETEX_PARAMETER_CORRECTION;
-        const double weight =
-            corrects && corrected && p->edited[parameter->target] ? retex_correction_weight(set->ntargets, count) : 0;
+        const float *value = given ? given + 3 * i : parameter->value;
+        if (parameter->kind == RETEX_PARAMETER_CORRECTION) {
+            const int counts = is_corrected && p->edited[parameter->target];
+            const float weight = counts ? (float)retex_correction_weight(set->ntargets, nedited) : 0;
+            p->parameters[i][0] = p->parameters[i][1] = p->parameters[i][2] = weight;
+            continue;
+        }
         for (int c = 0; c < 3; c++) {
-            const float value = params->parameters ? params->parameters[3 * i + c] : parameter->value[c];
-            p->parameters[i][c] = corrects ? (float)weight : value;
-            changed |= !corrects && value != parameter->value[c];
+            p->parameters[i][c] = value[c];
+            is_changed |= value[c] != parameter->value[c];
         }
     }
-    const int original = !params->terms_only && corrected && !count;
-    p->picture = set->nterms ? original && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE)
-                             : set->nparts > 0 && set->parts[0].image.channels == 3; /* a plain picture */
-    p->lamp_pictures = original && changed && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
+    return is_changed;
+}
+
+/* Finds what is edited, and what stands for the sum of terms then. Corrections, and the picture of part 0, are those of
+ * all cross terms. */
+static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
+{
+    const RetexSet *set = p->set;
+    const int nedited = find_edited_targets(p);
+    const int is_corrected = p->apart != POLYNOMIAL_APART && p->cross == ALL_CROSS_TERMS;
+    const int is_changed = set_parameters(p, params->parameters, is_corrected, nedited);
+    const int is_original = !params->terms_only && is_corrected && nedited == 0;
+    const int is_plain_picture = set->nterms == 0 && set->nparts > 0 && set->parts[0].image.channels == 3;
+    p->lamps = retex_set_has_role(set, RETEX_ROLE_LAMP);
+    p->picture = is_plain_picture || (set->nterms && is_original && !is_changed &&
+                                      retex_set_has_role(set, RETEX_ROLE_PICTURE));
+    p->lamp_pictures = is_original && is_changed && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
 }
 
 /* ---- opening ---- */
