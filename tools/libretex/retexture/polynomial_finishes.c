@@ -115,38 +115,55 @@ static int has_hit(const RetexPolynomial *p, const RetexPolynomialTerm *made, in
     return any;
 }
 
-void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm *term, RetexPolynomialTerm *made)
+/* Sorts the factors of a term: parameters into its weight, all others to where they stay. finishes: by target with a
+ * map the number of the finish that the term's light met it with, from 1. */
+static void sort_factors(const RetexPolynomial *p, const RetexTerm *term, RetexPolynomialTerm *made,
+                         int finishes[RETEX_MAX_TARGETS])
 {
-    int finishes[RETEX_MAX_TARGETS] = {0};
-    *made = (RetexPolynomialTerm){.weight = {1, 1, 1}};
     for (int k = 0; k < term->nfactors; k++) {
         const RetexFactor factor = term->factors[k];
         if (factor.kind != RETEX_FACTOR_PARAMETER) {
             made->factors[made->nfactors++] = factor;
             continue;
         }
+        const signed char *of_parameter = p->set->parameters[factor.index].finishes;
         add_parameter(p, factor.index, made);
         for (int t = 0; t < p->set->ntargets; t++)
-            if (p->mapped[t] && p->set->parameters[factor.index].finishes[t])
-                finishes[t] = p->set->parameters[factor.index].finishes[t];
+            if (p->mapped[t] && of_parameter[t])
+                finishes[t] = of_parameter[t];
     }
+}
+
+/* Lets the map of a target say how much of a term counts, whose light met the target with this finish, from 1. */
+static void weigh_by_map(const RetexPolynomial *p, const RetexTerm *term, RetexPolynomialTerm *made, int target,
+                         int finish)
+{
+    const RetexQuantity by_map = POLYNOMIAL_FINISHED(finish - 1);
+    const int hit = first_hit(p, term, made, target);
+    if (hit >= 0) {
+        made->factors[hit].quantity = by_map;
+    } else if (p->set->targets[target].normal_tilt > 0 && !has_hit(p, made, target)) {
+        for (int c = 0; c < 3; c++) /* it is the same with all three normals, and counts once */
+            made->weight[c] *= finish == 1;
+    } else if (made->nfactors < RETEX_MAX_FACTORS) {
+        RetexFactor gate = retex_factor(POLYNOMIAL_GATE, target);
+        gate.quantity = by_map;
+        made->factors[made->nfactors++] = gate;
+    }
+}
+
+void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm *term, RetexPolynomialTerm *made)
+{
+    int finishes[RETEX_MAX_TARGETS] = {0};
+    *made = (RetexPolynomialTerm){.weight = {1, 1, 1}};
+    sort_factors(p, term, made, finishes);
     for (int c = 0; c < 3 && p->lamps && retex_set_term_lamp(p->set, term) < 0; c++) {
         made->weight[c] *= p->common[c];
         made->weighted |= p->common[c] != 1;
     }
-    for (int t = 0; t < p->set->ntargets; t++) {
-        const int own = finishes[t] ? first_hit(p, term, made, t) : -1;
-        if (own >= 0) {
-            made->factors[own].quantity = POLYNOMIAL_FINISHED(finishes[t] - 1);
-        } else if (finishes[t] && p->set->targets[t].normal_tilt > 0 && !has_hit(p, made, t)) {
-            for (int c = 0; c < 3; c++)
-                made->weight[c] *= finishes[t] == 1;
-        } else if (finishes[t] && made->nfactors < RETEX_MAX_FACTORS) {
-            RetexFactor gate = retex_factor(POLYNOMIAL_GATE, t);
-            gate.quantity = POLYNOMIAL_FINISHED(finishes[t] - 1);
-            made->factors[made->nfactors++] = gate;
-        }
-    }
+    for (int t = 0; t < p->set->ntargets; t++)
+        if (finishes[t])
+            weigh_by_map(p, term, made, t, finishes[t]);
 }
 
 /* ---- gates ----

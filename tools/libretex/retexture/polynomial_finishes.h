@@ -9,7 +9,10 @@
 
 /* Find the targets that have a map, and the finishes that show where it is transparent. Parameters must be known. */
 int retex_polynomial_find_maps(RetexPolynomial *polynomial, RetexError *err);
-/* The weight of a term by its parameters, and its factors besides them. */
+/* The weight of a term by its parameters, and its factors besides them. With a map of Floor, a term of lamp L with
+ * Floor's second finish:
+ *     radiance * L * (colour at Floor's sharp1)    L is the weight; the factor is (colour * w_1 at sharp1)
+ *     radiance * L * (colour at Wall's broad1)     L is the weight; the factors are that colour, and Floor's gate 1 */
 void retex_polynomial_factor_finishes(const RetexPolynomial *polynomial, const RetexTerm *term,
                                       RetexPolynomialTerm *made);
 
