@@ -432,37 +432,72 @@ static void plan_footprint(Planning *plan, const RetexFootprint *f, const RetexP
     p->sigma_first = (int)floor((log2(s->maps[0].first / share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
+static int is_zero(const Planning *plan, int part)
+{
+    int zero = 1;
+    for (int c = 0; c < plan->packed[part].channels; c++)
+        zero = zero && plan->ranges[part][c].all_zero;
+    return zero;
+}
+
+/* Chooses codec and quantizer of a part by its role. Without losses all are planes, as are those of footprints, which
+ * are planned together. */
+static void plan_part(Planning *plan, int part)
+{
+    const RetexPackQuantizer *quantizer = plan->quantizer;
+    plan->packed[part].codec = is_zero(plan, part) ? RETEX_PACK_ZERO : RETEX_PACK_PLANES;
+    if (plan->packed[part].codec == RETEX_PACK_ZERO || !quantizer)
+        return;
+    if (part == 0) { /* white is 1, because viewers decode the picture as sRGB */
+        plan_light(plan, part, 1, quantizer->picture_step);
+        return;
+    }
+    switch (plan->roles[part]) {
+    case ROLE_LIGHT:
+        plan_light(plan, part, plan->whites[part] / rendered_value(plan->set, part), light_step(plan, part));
+        break;
+    case ROLE_ALBEDO:
+        plan_light(plan, part, plan->white, quantizer->jpeg_step);
+        break;
+    case ROLE_ORIGINAL:
+        plan_light(plan, part, 1, quantizer->original_step);
+        break;
+    case ROLE_GAIN:
+        plan_gain(plan, part);
+        break;
+    case ROLE_WEIGHT:
+        plan_weight(plan, part);
+        break;
+    case ROLE_NONE:
+    case ROLE_EXACT:
+    case ROLE_MEAN:
+    case ROLE_SPREAD:
+        break;
+    }
+}
+
+static int is_in_planes(const Planning *plan, int part)
+{
+    return part >= 0 && plan->packed[part].codec == RETEX_PACK_PLANES;
+}
+
+static void plan_footprints(Planning *plan)
+{
+    for (int f = 0; f < plan->set->nfootprints; f++) {
+        const RetexFootprint *footprint = &plan->set->footprints[f];
+        const int is_broad =
+            footprint->kind == RETEX_FOOTPRINT_BROAD || footprint->kind == RETEX_FOOTPRINT_INTERREFLECTION;
+        if (is_in_planes(plan, footprint->uv) && is_in_planes(plan, footprint->spread))
+            plan_footprint(plan, footprint, is_broad ? &plan->quantizer->broad : &plan->quantizer->sharp);
+    }
+}
+
 static void plan_parts(Planning *plan)
 {
-    const RetexSet *set = plan->set;
-    for (int i = 0; i < set->nparts; i++) {
-        RetexPackPart *p = &plan->packed[i];
-        int zero = 1;
-        for (int c = 0; c < p->channels; c++)
-            zero = zero && plan->ranges[i][c].all_zero;
-        p->codec = zero ? RETEX_PACK_ZERO : RETEX_PACK_PLANES;
-        if (!zero && plan->quantizer && i == 0) /* white is 1, because viewers decode the picture as sRGB */
-            plan_light(plan, i, 1, plan->quantizer->picture_step);
-        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_LIGHT)
-            plan_light(plan, i, plan->whites[i] / rendered_value(set, i), light_step(plan, i));
-        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ALBEDO)
-            plan_light(plan, i, plan->white, plan->quantizer->jpeg_step);
-        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ORIGINAL)
-            plan_light(plan, i, 1, plan->quantizer->original_step);
-        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_GAIN)
-            plan_gain(plan, i);
-        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_WEIGHT)
-            plan_weight(plan, i);
-    }
-    for (int i = 0; plan->quantizer && i < set->nfootprints; i++) {
-        const RetexFootprint *f = &set->footprints[i];
-        if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == RETEX_PACK_PLANES &&
-            plan->packed[f->spread].codec == RETEX_PACK_PLANES)
-            plan_footprint(plan, f,
-                           f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION
-                               ? &plan->quantizer->broad
-                               : &plan->quantizer->sharp);
-    }
+    for (int i = 0; i < plan->set->nparts; i++)
+        plan_part(plan, i);
+    if (plan->quantizer)
+        plan_footprints(plan);
 }
 
 /* What keeps its bits and has few different values, such as a texture of 8 bits, has a palette. */
