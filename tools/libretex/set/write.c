@@ -84,30 +84,58 @@ static int term_is_sound(const RetexSet *set, const RetexTerm *term)
     return sound;
 }
 
-/* Checks everything about a set that a caller may have filled in by hand. */
-static int check_set(const RetexSet *set, RetexError *err)
+/* Whether the set has no more of each than files can have. */
+static int counts_are_sound(const RetexSet *set)
 {
-    if (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(set->parts[0].letters, "RGB") != 0 ||
-        set->parts[0].image.width != set->width || set->parts[0].image.height != set->height)
-        return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
-                          set->height);
-    for (int i = 0; i < set->nparts; i++)
-        if (set->parts[i].store_image ? !set->store : !set->parts[i].image.pixels && !set->source)
-            return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
-    int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
-                set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 &&
-                set->nterms <= RETEX_SET_TERMS_MAX && set->nmixtures >= 0 && set->nmixtures <= RETEX_MIXTURES_MAX &&
-                set->nparameters >= 0 && set->nparameters <= RETEX_PARAMETERS_MAX;
+    const struct {
+        int count, most;
+    } lists[] = {{set->ntargets, RETEX_MAX_TARGETS},       {set->nfootprints, RETEX_SET_FOOTPRINTS_MAX},
+                 {set->nmixtures, RETEX_MIXTURES_MAX},     {set->nterms, RETEX_SET_TERMS_MAX},
+                 {set->nparameters, RETEX_PARAMETERS_MAX}, {set->nparts, RETEX_SET_PARTS_MAX}};
+    int sound = 1;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        sound = sound && lists[i].count >= 0 && lists[i].count <= lists[i].most;
+    return sound;
+}
+
+/* Whether all parts, footprints and so on that the set refers to are there. */
+static int references_are_sound(const RetexSet *set)
+{
+    int sound = 1;
     for (int i = 0; i < set->ntargets && sound; i++)
         sound = part_in_range(set, set->targets[i].original, 1);
-    for (int i = 0; i < set->nfootprints && sound; i++)
-        sound = part_in_range(set, set->footprints[i].uv, 1) && part_in_range(set, set->footprints[i].spread, 1) &&
-                part_in_range(set, set->footprints[i].albedo, 1);
+    for (int i = 0; i < set->nfootprints && sound; i++) {
+        const RetexFootprint *footprint = &set->footprints[i];
+        sound = part_in_range(set, footprint->uv, 1) && part_in_range(set, footprint->spread, 1) &&
+                part_in_range(set, footprint->albedo, 1);
+    }
     for (int i = 0; i < set->nmixtures && sound; i++)
         sound = mixture_is_sound(set, &set->mixtures[i]);
     for (int i = 0; i < set->nterms && sound; i++)
         sound = term_is_sound(set, &set->terms[i]);
-    return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
+    return sound;
+}
+
+/* Whether a part's pixels are somewhere: in the band store, in memory, or in the open file. */
+static int has_pixels(const RetexSet *set, const RetexPart *part)
+{
+    return part->store_image ? set->store != NULL : part->image.pixels || set->source;
+}
+
+/* Checks everything about a set that a caller may have filled in by hand. */
+static int check_set(const RetexSet *set, RetexError *err)
+{
+    const RetexPart *picture = set->parts;
+    if (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(picture->letters, "RGB") != 0 ||
+        picture->image.width != set->width || picture->image.height != set->height)
+        return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
+                          set->height);
+    for (int i = 0; i < set->nparts; i++)
+        if (!has_pixels(set, &set->parts[i]))
+            return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
+    return counts_are_sound(set) && references_are_sound(set)
+               ? RETEX_OK
+               : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 
 /* State of writing one file. */
