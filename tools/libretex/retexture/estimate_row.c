@@ -284,43 +284,87 @@ static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *m
     }
 }
 
-int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, const float *const *means,
-                       float *scratch, float *out, RetexError *err)
+/* The parts of the scratch memory, whose size is retex_estimate_scratch: rows of n numbers. */
+typedef struct RowScratch {
+    float *sum;         /* of all terms; then of squared errors */
+    float *change;      /* what further hits change in it */
+    float *derivatives; /* row_count of them */
+    float *weights;     /* of finishes, RETEX_FINISHES_MAX rows */
+    float *rest;        /* for what is done with a row */
+} RowScratch;
+
+static RowScratch divide_scratch(const RetexSet *set, float *scratch)
+{
+    const size_t n = row_numbers(set);
+    RowScratch s = {.sum = scratch, .change = scratch + n, .derivatives = scratch + 2 * n};
+    s.weights = s.derivatives + (size_t)row_count(set) * n;
+    s.rest = s.weights + RETEX_FINISHES_MAX * n;
+    return s;
+}
+
+/* The sum of all terms, and its derivatives by footprints and gates. */
+static int add_terms(const RetexPolynomialRow *row, int y, const RowScratch *s, RetexError *err)
+{
+    const RetexSet *set = row->polynomial->set;
+    const size_t n = row_numbers(set), textures = (size_t)texture_count(set);
+    const size_t blocks = retex_set_has_finishes(set) ? 1 + RETEX_FINISHES_MAX : 1; /* colours, then by finish */
+    int code = RETEX_OK;
+    for (int m = 0; m < row->count; m++)
+        add_term(set, &row->monomials[m], n, s->sum, s->change, s->derivatives, s->rest);
+    for (size_t block = 0; block < blocks; block++) {
+        float *of_footprints = s->derivatives + block * textures * n;
+        const float *of_mixtures = of_footprints + (size_t)set->nfootprints * n;
+        for (int m = 0; m < set->nmixtures && !code; m++)
+            code = share_derivatives(row, &set->mixtures[m], y, n, of_mixtures + (size_t)m * n, of_footprints, err);
+    }
+    return code;
+}
+
+/* Begins the sum of squared errors with light whose further hits have original colours. */
+static void begin_errors(const RetexSet *set, const RowScratch *s)
+{
+    for (size_t i = 0; i < row_numbers(set); i++) {
+        const float doubtful = set->further_hits ? doubt * s->change[i] : (float)set->folded * s->sum[i];
+        s->sum[i] = doubtful * doubtful;
+    }
+}
+
+/* Adds the errors of a target's footprints, and of its finishes. */
+static int add_target(const RetexPolynomialRow *row, int target, int y, const float *const *variances,
+                      const float *const *means, const RowScratch *s, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
     const RetexSet *set = p->set;
-    const size_t n = row_numbers(set), textures = (size_t)texture_count(set);
-    RETEX_ASSERT(p->apart == POLYNOMIAL_APART);
-    float *sum = scratch, *change = scratch + n, *derivatives = scratch + 2 * n,
-          *weights = derivatives + (size_t)row_count(set) * n, *rest = weights + RETEX_FINISHES_MAX * n;
+    const size_t n = row_numbers(set);
+    const int finishes = p->mapped[target];
+    RowMap map = {.count = finishes, .tilt = finishes ? set->targets[target].normal_tilt * M_PI / 180 : 0};
+    float *rows[RETEX_FINISHES_MAX];
     int code = RETEX_OK;
+    for (int k = 0; k < finishes; k++)
+        map.weights[k] = rows[k] = s->weights + (size_t)k * n;
+    if (finishes)
+        code = retex_polynomial_gate_rows(p, row->reader, target, y, s->rest, rows, err);
+    if (finishes && !code)
+        add_gates(set, target, n, &map, s->derivatives, s->sum);
+    for (int f = 0; f < set->nfootprints && !code; f++)
+        if (variances[f] && set->footprints[f].target == target)
+            code = add_footprint(row, f, y, n, &map, variances[f], means[f], s->derivatives, s->sum, err);
+    return code;
+}
+
+int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, const float *const *means,
+                       float *scratch, float *out, RetexError *err)
+{
+    const RetexSet *set = row->polynomial->set;
+    const RowScratch s = divide_scratch(set, scratch);
+    RETEX_ASSERT(row->polynomial->apart == POLYNOMIAL_APART);
     memset(scratch, 0, sizeof *scratch * retex_estimate_scratch(set));
-    for (int t = 0; t < row->count; t++)
-        add_term(set, &row->monomials[t], n, sum, change, derivatives, rest);
-    for (size_t q = 0; q < (retex_set_has_finishes(set) ? 1 + RETEX_FINISHES_MAX : 1); q++)
-        for (int m = 0; m < set->nmixtures && !code; m++)
-            code = share_derivatives(row, &set->mixtures[m], y, n,
-                                     derivatives + (q * textures + (size_t)(set->nfootprints + m)) * n,
-                                     derivatives + q * textures * n, err);
-    for (size_t i = 0; i < n; i++) {
-        const float doubtful = set->further_hits ? doubt * change[i] : (float)set->folded * sum[i];
-        sum[i] = doubtful * doubtful;
-    }
-    for (int t = 0; t < set->ntargets && !code; t++) {
-        RowMap map = {.count = p->mapped[t], .tilt = p->mapped[t] ? set->targets[t].normal_tilt * M_PI / 180 : 0};
-        float *rows[RETEX_FINISHES_MAX];
-        for (int k = 0; k < map.count; k++)
-            map.weights[k] = rows[k] = weights + (size_t)k * n;
-        if (map.count)
-            code = retex_polynomial_gate_rows(p, row->reader, t, y, rest, rows, err);
-        if (map.count && !code)
-            add_gates(set, t, n, &map, derivatives, sum);
-        for (int f = 0; f < set->nfootprints && !code; f++)
-            if (variances[f] && set->footprints[f].target == t)
-                code = add_footprint(row, f, y, n, &map, variances[f], means[f], derivatives, sum, err);
-    }
-    for (size_t i = 0; i < n; i++)
-        out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives of large colours may overflow to
-                                                                 infinity and NaN */
+    int code = add_terms(row, y, &s, err);
+    begin_errors(set, &s);
+    for (int t = 0; t < set->ntargets && !code; t++)
+        code = add_target(row, t, y, variances, means, &s, err);
+    for (size_t i = 0; i < row_numbers(set); i++)
+        out[i] = s.sum[i] <= FLT_MAX ? sqrtf(s.sum[i]) : FLT_MAX; /* derivatives of large colours may overflow to
+                                                                     infinity and NaN */
     return code;
 }
