@@ -291,46 +291,61 @@ static void store_factors(const Second *w, const Scratch *work, const float *val
         }
 }
 
+/* Loads a signal around the tile, and how far its halves are apart. */
+static void load_signal(const Second *w, const Scratch *work, int signal, const float *valid, int x0, int y0)
+{
+    const RetexDenoiser *d = w->denoiser;
+    RetexDenoiseLight *first = &work->first[signal];
+    load_halves(first, w, signal, x0, y0);
+    work->empty[signal] = (unsigned char)is_empty(first);
+    if (work->empty[signal]) {
+        memset(work->means[signal], 0, 3 * (CHOICES - 1) * DENOISE_PIXELS * sizeof(float));
+        memset(work->errors[signal], 0, CHOICES * DENOISE_PIXELS * sizeof(float));
+        return;
+    }
+    work->epsilons[signal] = find_epsilon(first);
+    find_variance(first, work->spare, work->epsilons[signal]);
+    retex_denoise_load_kind(work->kinds[signal], d, &d->signals.of[signal], x0, y0);
+    find_error(work->errors[signal], first, first, valid);
+}
+
+/* Makes a level of all signals: the first of what the first pass left, each other of the one before it. */
+static void make_level(const Second *w, const Scratch *work, const RetexDenoiseFeatures *features, int number)
+{
+    const RetexDenoiser *d = w->denoiser;
+    const RetexDenoiseLevel level = {.step = steps[number],
+                                     .around = around[number],
+                                     .features = features,
+                                     .nsignals = d->signals.count,
+                                     .kinds = (const float *const *)work->kinds,
+                                     .empty = work->empty,
+                                     .epsilons = work->epsilons,
+                                     .from = number ? work->levels[(number + 1) % 2] : work->first,
+                                     .to = work->levels[number % 2]};
+    retex_denoise_level_kernel(&level, d->params.scalar);
+    for (int signal = 0; signal < d->signals.count; signal++)
+        if (!work->empty[signal])
+            keep_level(work, signal, number, features->valid);
+}
+
 static void second_job(void *context, int index, int thread)
 {
     const Second *w = context;
     const RetexDenoiser *d = w->denoiser;
     const Scratch *work = &w->scratch[thread];
     const int x0 = d->roi.x0 + index * DENOISE_STEP - DENOISE_MARGIN, y0 = w->y - DENOISE_MARGIN;
+    RetexSignalSums *sums = w->sums + (size_t)index * (size_t)d->signals.count;
     RetexDenoiseFeatures features;
     if (retex_budget_is_stopped(d->params.budget))
         return;
     retex_denoise_load_features(&features, work->features, d, x0, y0);
     limit_valid(w, features.valid, x0, y0);
-    for (int s = 0; s < d->signals.count; s++) {
-        load_halves(&work->first[s], w, s, x0, y0);
-        if ((work->empty[s] = (unsigned char)is_empty(&work->first[s]))) {
-            memset(work->means[s], 0, 3 * (CHOICES - 1) * DENOISE_PIXELS * sizeof(float));
-            memset(work->errors[s], 0, CHOICES * DENOISE_PIXELS * sizeof(float));
-            continue;
-        }
-        work->epsilons[s] = find_epsilon(&work->first[s]);
-        find_variance(&work->first[s], work->spare, work->epsilons[s]);
-        retex_denoise_load_kind(work->kinds[s], d, &d->signals.of[s], x0, y0);
-        find_error(work->errors[s], &work->first[s], &work->first[s], features.valid);
-    }
-    for (int k = 0; k < DENOISE_LEVELS; k++) {
-        const RetexDenoiseLevel level = {.step = steps[k],
-                                         .around = around[k],
-                                         .features = &features,
-                                         .nsignals = d->signals.count,
-                                         .kinds = (const float *const *)work->kinds,
-                                         .empty = work->empty,
-                                         .epsilons = work->epsilons,
-                                         .from = k ? work->levels[(k + 1) % 2] : work->first,
-                                         .to = work->levels[k % 2]};
-        retex_denoise_level_kernel(&level, d->params.scalar);
-        for (int s = 0; s < d->signals.count; s++)
-            if (!work->empty[s])
-                keep_level(work, s, k, features.valid);
-    }
-    for (int s = 0; s < d->signals.count; s++)
-        store_factors(w, work, features.valid, s, x0, y0, w->sums + (size_t)index * (size_t)d->signals.count + s);
+    for (int signal = 0; signal < d->signals.count; signal++)
+        load_signal(w, work, signal, features.valid, x0, y0);
+    for (int level = 0; level < DENOISE_LEVELS; level++)
+        make_level(w, work, &features, level);
+    for (int signal = 0; signal < d->signals.count; signal++)
+        store_factors(w, work, features.valid, signal, x0, y0, &sums[signal]);
 }
 
 static void add_sums(const Second *w, RetexSignalSums *sums)
