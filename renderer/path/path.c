@@ -242,43 +242,68 @@ static void follow_beyond(PathWorker *w, Path *path, const Vertex *last, Ray ray
     path->cut += isfinite(cut) ? cut : 0;
 }
 
-int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *ray)
+/* Multiply throughput by what the surface does to light from the sampled direction. pdf: its density with the guide;
+ * weights: of each finish. Returns path_is_alive. */
+static int apply_sample(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, float pdf,
+                        const Split weights[FINISHES_MAX])
 {
     const Shading *s = &v->s;
-    Split weights[FINISHES_MAX];
-    FinishFactor finishes[FINISHES_MAX], variants[VARIANTS_MAX];
-    float pdf;
-    path->leaving = 0;
-    if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts)) {
-        follow_beyond(w, path, v, *ray);
-        return 0; /* no segment is left, and nothing passes straight */
-    }
-    if (!sample_direction(v, next, weights, &pdf))
-        return 0;
+    const VertexFinishes *of = &v->finishes;
     /* By the BSDF's own weight: the guide sends more paths to where light is expected, which must not end them. */
-    const float neutral = v->finishes.count ? finishes_neutral(v, weights) : split_neutral(next->weight);
+    const float neutral = of->count ? finishes_neutral(v, weights) : split_neutral(next->weight);
     path->beta_neutral *= at_most(neutral * eta_scale(&s->bsdf, next), 1);
     const float guided = pdf != next->pdf ? next->pdf / pdf : 1;
     if (pdf != next->pdf)
         next->weight = (Split){rgb_scale(next->weight.d, guided), rgb_scale(next->weight.i, guided)};
-    for (int k = 0; k < v->finishes.count; k++)
-        finishes[k] = (FinishFactor){color4(weights[k].d) * splat(guided), color4(weights[k].i) * splat(guided)};
-    if (!path_apply_weight(w, path, s, next->weight, v->finishes.count ? finishes : NULL,
-                           v->finishes.count && v->finishes.has_weights ? v->finishes.weights : NULL,
-                           finishes_variants(v, next->wi, BSDF_ANY_LIGHT, next->pdf, guided,
-                                             next->pdf > 0 ? NULL : finishes, w->context->nvariants, variants),
-                           !next->transmitted))
+    FinishFactor by_finish[FINISHES_MAX], by_variant[VARIANTS_MAX];
+    for (int k = 0; k < of->count; k++)
+        by_finish[k] = (FinishFactor){color4(weights[k].d) * splat(guided), color4(weights[k].i) * splat(guided)};
+    const FinishFactor *finishes = of->count ? by_finish : NULL;
+    const FinishFactor *variants =
+        finishes_variants(v, next->wi, BSDF_ANY_LIGHT, next->pdf, guided, next->pdf > 0 ? NULL : by_finish,
+                          w->context->nvariants, by_variant);
+    return path_apply_weight(w, path, s, next->weight, finishes, of->count && of->has_weights ? of->weights : NULL,
+                             variants, !next->transmitted);
+}
+
+/* Begin the next segment along the sampled direction. */
+static void leave_vertex(PathWorker *w, Path *path, const Vertex *v, const BsdfSample *next, float pdf, Ray *ray)
+{
+    const Shading *s = &v->s;
+    RETEX_ASSERT(!(fabs(vec_dot(next->wi, next->wi) - 1) > 1e-4)); /* densities are per solid angle */
+    path->kind = path_next_kind(path->kind, &s->bsdf, next->transmitted);
+    path->prev_context = light_sample_context(s);
+    ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next->wi);
+    ray->direction = next->wi;
+    ray->tmin = 0, ray->tmax = INFINITY;
+    path_next_segment(path, pdf, next->pdf);
+    if (w->context->caustic_sources > 0)
+        meet_sources(w, path, v, next, ray);
+}
+
+int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *ray)
+{
+    const Bsdf *bsdf = &v->s.bsdf;
+    const int may_pass_straight = bsdf->p_passing > 0 && !bsdf->refracts;
+    Split weights[FINISHES_MAX];
+    float pdf;
+    path->leaving = 0;
+    if (v->is_last && !may_pass_straight) { /* no segment is left */
+        follow_beyond(w, path, v, *ray);
         return 0;
-    if (w->context->trace)
-        fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,
-                next->wi.z, pdf, rgb_luminance(next->weight.d), rgb_luminance(next->weight.i));
+    }
+    if (!sample_direction(v, next, weights, &pdf) || !apply_sample(w, path, v, next, pdf, weights))
+        return 0;
     RETEX_ASSERT(!next->straight || next->transmitted);
     RETEX_ASSERT(!next->straight || next->pdf == 0); /* passing straight is a delta lobe */
     RETEX_ASSERT((pdf > 0) == (next->pdf > 0));      /* the guide does not sample delta lobes */
+    if (w->context->trace)
+        fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,
+                next->wi.z, pdf, rgb_luminance(next->weight.d), rgb_luminance(next->weight.i));
     if (next->transmitted && v->wavelength >= 0)
         path_take_wavelength(w, path, v->wavelength);
     if (next->transmitted)
-        media_cross(&path->media, &s->surface);
+        media_cross(&path->media, &v->s.surface);
     if (next->straight) { /* the same segment goes on behind the surface */
         ray->tmin = v->distance;
         return ++path->straight <= STRAIGHT_MAX;
@@ -289,15 +314,7 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
         walk_below_surface(w, path, v, next->wi, ray);
         return path_is_alive(w, path);
     }
-    path->kind = path_next_kind(path->kind, &s->bsdf, next->transmitted);
-    path->prev_context = light_sample_context(s);
-    ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next->wi);
-    ray->direction = next->wi;
-    ray->tmin = 0, ray->tmax = INFINITY;
-    RETEX_ASSERT(!(fabs(vec_dot(ray->direction, ray->direction) - 1) > 1e-4)); /* densities are per solid angle */
-    path_next_segment(path, pdf, next->pdf);
-    if (w->context->caustic_sources > 0)
-        meet_sources(w, path, v, next, ray);
+    leave_vertex(w, path, v, next, pdf, ray);
     return 1;
 }
 
