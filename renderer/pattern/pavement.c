@@ -4,9 +4,12 @@
 
 /* ---- squares ---- */
 
+/* A square, and which of its edges are edges of tiles. */
 typedef struct Square {
     const Pavement *pavement;
-    double x, z; /* its corner of least x and z */
+    double x, z;    /* its corner of least x and z */
+    int at_x[2];    /* 1: the edge of least x, of greatest x, is one */
+    int at_z[2];    /* the same of z */
 } Square;
 
 static int edge_x(const Square *square, int dx, int dz)
@@ -17,6 +20,28 @@ static int edge_x(const Square *square, int dx, int dz)
 static int edge_z(const Square *square, int dx, int dz)
 {
     return pavement_edges(square->pavement, square->x + dx, square->z + dz) >> 1;
+}
+
+static Square square_at(const Pavement *pavement, Vec3 p)
+{
+    Square square = {.pavement = pavement, .x = floor(p.x), .z = floor(p.z)};
+    square.at_x[0] = edge_x(&square, 0, 0), square.at_x[1] = edge_x(&square, 1, 0);
+    square.at_z[0] = edge_z(&square, 0, 0), square.at_z[1] = edge_z(&square, 0, 1);
+    return square;
+}
+
+/* Whether a corner of the square is one where the tile turns inwards: the squares beside it have edges there, it has
+ * none itself. right, up: 0 or 1, of least x or greatest, and so on. */
+static int is_concave(const Square *square, int right, int up)
+{
+    return !square->at_x[right] && !square->at_z[up] && edge_x(square, right, up ? 1 : -1) &&
+           edge_z(square, right ? 1 : -1, up);
+}
+
+/* Whether it has two edges, which are neighbours. */
+static int has_bend(const Square *square)
+{
+    return square->at_x[0] != square->at_x[1] && square->at_z[0] != square->at_z[1];
 }
 
 /* 0 in the middle of a corner, 1 half a side away. */
@@ -35,20 +60,22 @@ static double bend(int look, double a, double b)
 /* 1 on the edges of tiles, 0 half a side inside. */
 static double square_value(const Pavement *pavement, Vec3 p)
 {
-    const Square square = {pavement, floor(p.x), floor(p.z)};
-    const double u = p.x - square.x, v = p.z - square.z, a = fabs(u - 0.5), b = fabs(v - 0.5);
-    const int along_x[2] = {edge_x(&square, 0, 0), edge_x(&square, 1, 0)}; /* least and greatest x */
-    const int along_z[2] = {edge_z(&square, 0, 0), edge_z(&square, 0, 1)};
-    const int right = u > 0.5, up = v > 0.5, bends = along_x[0] != along_x[1] && along_z[0] != along_z[1];
-    const int i = bends ? along_x[0] : right, j = bends ? along_z[0] : up; /* the corner in question */
-    const int concave = !along_x[i] && !along_z[j] && edge_x(&square, i, j ? 1 : -1) && edge_z(&square, i ? 1 : -1, j);
-    if (bends && concave && pavement->form < 3)
-        return bend(pavement->form, i ? 1 - u : u, j ? 1 - v : v);
-    if (along_x[right] && along_z[up])
-        return fmin(1, look_at_corner(pavement->exterior, a, b));
-    if (along_x[right] || along_z[up])
-        return 2 * (along_x[right] ? a : b);
-    return concave && i == right && j == up ? fmax(0, 1 - look_at_corner(pavement->interior, 0.5 - a, 0.5 - b)) : 0;
+    const Square square = square_at(pavement, p);
+    const double u = p.x - square.x, v = p.z - square.z;
+    const double from_middle_x = fabs(u - 0.5), from_middle_z = fabs(v - 0.5);
+    const int right = u > 0.5, up = v > 0.5; /* the nearest corner, */
+    const int is_edge_x = square.at_x[right], is_edge_z = square.at_z[up];
+    const int inner_right = square.at_x[0], inner_up = square.at_z[0]; /* of a bend: that without edges */
+
+    if (has_bend(&square) && pavement->form < 3 && is_concave(&square, inner_right, inner_up))
+        return bend(pavement->form, inner_right ? 1 - u : u, inner_up ? 1 - v : v);
+    if (is_edge_x && is_edge_z)
+        return fmin(1, look_at_corner(pavement->exterior, from_middle_x, from_middle_z));
+    if (is_edge_x || is_edge_z)
+        return 2 * (is_edge_x ? from_middle_x : from_middle_z);
+    return is_concave(&square, right, up)
+               ? fmax(0, 1 - look_at_corner(pavement->interior, 0.5 - from_middle_x, 0.5 - from_middle_z))
+               : 0;
 }
 
 /* ---- triangles, and hexagons of six triangles each ---- */
