@@ -26,33 +26,51 @@ static int window_count(int at, int size)
     return (high < size - 1 ? high : size - 1) - (low > 0 ? low : 0) + 1;
 }
 
+/* Sum over the pixels of the window that lie beside (x, y) in a direction, those within the image. */
+static void sum_along(double sum[3], const RetexImage *image, int x, int y, int dx, int dy)
+{
+    sum[0] = sum[1] = sum[2] = 0;
+    for (int k = -CONTROL_RADIUS; k <= CONTROL_RADIUS; k++) {
+        const int u = x + k * dx, v = y + k * dy;
+        if (u < 0 || v < 0 || u >= image->width || v >= image->height)
+            continue;
+        const float *pixel = image->pixels + retex_image_index(image, u, v);
+        sum[0] += pixel[0], sum[1] += pixel[1], sum[2] += pixel[2];
+    }
+}
+
+/* Sums over the window's row at each pixel. */
+static void sum_rows(RetexImage *rows, const RetexImage *src)
+{
+    double sum[3];
+    for (int y = 0; y < src->height; y++)
+        for (int x = 0; x < src->width; x++) {
+            sum_along(sum, src, x, y, 1, 0);
+            for (size_t c = 0; c < 3; c++)
+                rows->pixels[retex_image_index(rows, x, y) + c] = (float)sum[c];
+        }
+}
+
 /* Mean over the window around each pixel, limited to the image. With others_only the pixel itself is left out. */
 static int smooth(RetexImage *dst, const RetexImage *src, int others_only, RetexError *err)
 {
     RetexImage rows = {0};
-    int w = src->width, h = src->height, code = retex_image_alloc(&rows, w, h, 3, err);
+    double sum[3];
+    int code = retex_image_alloc(&rows, src->width, src->height, 3, err);
     if (!code)
-        code = retex_image_alloc(dst, w, h, 3, err);
-    for (int pass = 0; pass < 2 && !code; pass++) { /* first along rows, then along columns */
-        const RetexImage *from = pass ? &rows : src;
-        for (int y = 0; y < h; y++)
-            for (int x = 0; x < w; x++) {
-                double sum[3] = {0, 0, 0};
-                size_t at = retex_image_index(src, x, y);
-                for (int k = -CONTROL_RADIUS; k <= CONTROL_RADIUS; k++) {
-                    int u = pass ? x : x + k, v = pass ? y + k : y;
-                    if (u < 0 || v < 0 || u >= w || v >= h)
-                        continue;
-                    const float *p = from->pixels + retex_image_index(from, u, v);
-                    sum[0] += p[0], sum[1] += p[1], sum[2] += p[2];
-                }
-                int count = pass ? window_count(x, w) * window_count(y, h) - others_only : 1;
-                for (size_t c = 0; c < 3; c++) {
-                    double own = pass && others_only ? src->pixels[at + c] : 0;
-                    (pass ? dst : &rows)->pixels[at + c] = count > 0 ? (float)((sum[c] - own) / count) : 0;
-                }
+        code = retex_image_alloc(dst, src->width, src->height, 3, err);
+    if (!code)
+        sum_rows(&rows, src);
+    for (int y = 0; y < src->height && !code; y++)
+        for (int x = 0; x < src->width; x++) {
+            const size_t at = retex_image_index(src, x, y);
+            const int count = window_count(x, src->width) * window_count(y, src->height) - others_only;
+            sum_along(sum, &rows, x, y, 0, 1);
+            for (size_t c = 0; c < 3; c++) {
+                const double own = others_only ? src->pixels[at + c] : 0;
+                dst->pixels[at + c] = count > 0 ? (float)((sum[c] - own) / count) : 0;
             }
-    }
+        }
     retex_image_free(&rows);
     return code;
 }
