@@ -64,11 +64,16 @@ typedef struct Move {
     const char *real;   /* its folder without symbolic links, if names are to be meant from there */
 } Move;
 
+static int fail_long(const char *name, RetexError *err)
+{
+    return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
+}
+
 static int set_name(char *name, size_t size, const char *made, RetexError *err)
 {
     const char *before = as_file(made);
     if (strlen(before) + strlen(made) >= size)
-        return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", made);
+        return fail_long(made, err);
     memset(name, 0, size); /* specs are compared byte by byte */
     strcat(strcpy(name, before), made);
     return RETEX_OK;
@@ -82,34 +87,46 @@ static int name_from_preset(char *name, size_t size, const Move *move, RetexErro
         return RETEX_OK;
     const char *from_there = name + (strncmp(name, "./", 2) == 0 ? 2 : 0);
     if ((size_t)snprintf(made, sizeof made, "%.*s%s", (int)length, move->preset, from_there) >= sizeof made)
-        return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
+        return fail_long(name, err);
     return set_name(name, size, made, err);
 }
 
+/* How many bytes a folder and a file have in common, up to a slash, with it: 3 of `/a/b` and `/a/c/oak.jpg`, 5 of
+ * `/a/b` and `/a/b/oak.jpg`. */
+static size_t common_length(const char *folder, const char *file)
+{
+    size_t common = 0, at = 0;
+    while (folder[at] && folder[at] == file[at])
+        common = file[at++] == '/' ? at : common;
+    return !folder[at] && file[at] == '/' ? at + 1 : common;
+}
+
+/* How many folders a path has: 2 of `b/c`. */
+static size_t folder_count(const char *path)
+{
+    size_t count = *path != '\0';
+    for (; *path; path++)
+        count += *path == '/';
+    return count;
+}
+
+/* The way from the preset's folder to the file: `../c/oak.jpg` from `/a/b` to `/a/c/oak.jpg`. */
 static int name_for_preset(char *name, size_t size, const Move *move, RetexError *err)
 {
     char folder[PATH_MAX], file[PATH_MAX], made[PATH_MAX] = "";
     const size_t length = image_folder_length(name);
-    size_t same = 0, at = 0;
     if (!real_folder(folder, name, length)) /* it is not there, or is to have a frame's number */
         return RETEX_OK;
     if ((size_t)snprintf(file, sizeof file, "%s%s%s", folder, folder[1] ? "/" : "", name + length) >= sizeof file)
-        return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
-    const char *real = move->real[1] ? move->real : ""; /* the root */
-    while (real[at] && real[at] == file[at])            /* the last slash that both have */
-        same = file[at++] == '/' ? at : same;
-    if (!real[at] && file[at] == '/')
-        same = at + 1;
-    const char *up = same <= strlen(real) ? real + same : "";
-    for (int more = *up != '\0'; more; more = *up++ == '/') {
-        if (strlen(made) + 3 >= sizeof made)
-            return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
+        return fail_long(name, err);
+    const char *from = move->real[1] ? move->real : ""; /* the root */
+    const size_t common = common_length(from, file);
+    const size_t up = folder_count(common <= strlen(from) ? from + common : "");
+    if (3 * up + strlen(file + common) >= sizeof made)
+        return fail_long(name, err);
+    for (size_t k = 0; k < up; k++)
         strcat(made, "../");
-        up += strcspn(up, "/");
-    }
-    if (strlen(made) + strlen(file + same) >= sizeof made)
-        return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
-    strcat(made, file + same);
+    strcat(made, file + common);
     return set_name(name, size, made, err);
 }
 
