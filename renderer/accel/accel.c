@@ -126,11 +126,6 @@ static unsigned char primitive_flags(const Primitive *primitive)
     return (unsigned char)(flags | TRANSPARENT | (always_refracts(primitive) ? 0 : STRAIGHT));
 }
 
-static void extend_bounds(Accel *accel, Vec3 low, Vec3 high)
-{
-    accel->low = vec_min(accel->low, low), accel->high = vec_max(accel->high, high);
-}
-
 static int is_traceable(Vec3 low, Vec3 high)
 {
     return vec_largest(low) < LARGEST_COORDINATE && vec_largest(high) < LARGEST_COORDINATE;
@@ -142,101 +137,110 @@ static int fail_untraceable(const Scene *scene, int line, RetexError *err)
                          "this object has coordinates that are not finite or beyond %g", LARGEST_COORDINATE);
 }
 
-/* CSGs are user geometry as curved shapes are. Their operands are no geometry by themselves. */
-static int classify_csgs(Accel *accel, RetexError *err)
-{
-    const Scene *scene = accel->source;
-
-    for (int i = 0; i < scene->ncsgs; i++) {
-        Vec3 low, high;
-        if (bounds_is_empty(&scene->csgs[i]->surface))
-            continue;
-        if (!item_bounds(accel, ~i, &low, &high)) {
-            accel->planes[accel->nplanes++] = ~i;
-            continue;
-        }
-        if (!is_traceable(low, high))
-            return fail_untraceable(scene, scene->csgs[i]->line, err);
-        extend_bounds(accel, low, high);
-        accel->curved[accel->ncurved++] = ~i;
-    }
-    return 0;
-}
-
-/* Those of prototypes are where the instances are. */
-static int classify_instances(Accel *accel, RetexError *err)
-{
-    const Scene *scene = accel->source;
-
-    for (int i = 0; i < scene->ninstances; i++) {
-        const Instance *instance = &scene->instances[i];
-        const int item = scene->nprimitives + i;
-        const Accel *prototype = accel->prototypes[instance->prototype->number]->accel;
-        Vec3 low, high;
-        /* Whether what is let through is bent is asked of the hit. */
-        accel->flags[item] = (unsigned char)(may_transmit(instance->texture) ? TRANSPARENT | STRAIGHT : 0u);
-        if (prototype->nplanes + prototype->ncurved == 0 && prototype->ntriangles == 0)
-            continue;
-        if (!item_bounds(accel, item, &low, &high)) {
-            accel->planes[accel->nplanes++] = item;
-            continue;
-        }
-        if (!is_traceable(low, high))
-            return fail_untraceable(scene, instance->line, err);
-        extend_bounds(accel, low, high);
-        accel->curved[accel->ncurved++] = item;
-    }
-    return 0;
-}
-
 /* Whether it is found through a tree of CSG or an instance. */
 static int is_elsewhere(const Accel *accel, const Primitive *primitive)
 {
     return primitive->csg || (primitive->prototype && !accel->parent);
 }
 
-/* Whether its triangles are the scene's. */
-static int is_by_triangles(const Accel *accel, int index)
+/* Whether an item is a primitive whose triangles are the scene's. */
+static int is_by_triangles(const Accel *accel, int item)
 {
-    const Primitive *primitive = &accel->source->primitives[index];
+    if (item < 0 || item >= accel->source->nprimitives)
+        return 0;
+    const Primitive *primitive = &accel->source->primitives[item];
 
     return primitive->shape.ops->triangles && !is_elsewhere(accel, primitive) &&
-           !(accel->shared && accel->shared[index]);
+           !(accel->shared && accel->shared[item]);
 }
 
-/* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
-static int classify_primitives(Accel *accel, RetexError *err)
+/* Sort an item to triangles, to user geometry, or to what is tested beside Embree, and count what it needs. line: of
+ * the scene file, for what cannot be traced. */
+static int add_item(Accel *accel, int item, int line, RetexError *err)
+{
+    ShapeTriangles triangles = {0, 0, NULL, NULL, 0, 0};
+    Vec3 low, high;
+
+    if (!item_bounds(accel, item, &low, &high)) {
+        accel->planes[accel->nplanes++] = item;
+        return 0;
+    }
+    if (is_by_triangles(accel, item)) {
+        const Shape *shape = &accel->source->primitives[item].shape;
+        shape->ops->triangles(shape, &triangles);
+        if (triangles.ntriangles == 0)
+            return 0;
+    }
+    if (!is_traceable(low, high))
+        return fail_untraceable(accel->source, line, err);
+    accel->low = vec_min(accel->low, low), accel->high = vec_max(accel->high, high);
+    if (triangles.ntriangles == 0)
+        accel->curved[accel->ncurved++] = item;
+    accel->nvertices += (size_t)triangles.nvertices;
+    accel->ntriangles += (size_t)triangles.ntriangles;
+    return 0;
+}
+
+static int is_empty(const Accel *accel)
+{
+    return accel->nplanes + accel->ncurved == 0 && accel->ntriangles == 0;
+}
+
+static int add_primitives(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
+    int status = 0;
 
+    for (int i = 0; i < scene->nprimitives && status == 0; i++) {
+        const Primitive *primitive = &scene->primitives[i];
+        accel->flags[i] = primitive_flags(primitive);
+        if (!is_elsewhere(accel, primitive))
+            status = add_item(accel, i, primitive->line, err);
+    }
+    return status;
+}
+
+/* CSGs are user geometry as curved shapes are. Their operands are no geometry by themselves. */
+static int add_csgs(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+    int status = 0;
+
+    for (int i = 0; i < scene->ncsgs && status == 0; i++)
+        if (!bounds_is_empty(&scene->csgs[i]->surface))
+            status = add_item(accel, ~i, scene->csgs[i]->line, err);
+    return status;
+}
+
+/* Primitives of prototypes are where the instances are. */
+static int add_instances(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+    int status = 0;
+
+    for (int i = 0; i < scene->ninstances && status == 0; i++) {
+        const Instance *instance = &scene->instances[i];
+        const int item = scene->nprimitives + i;
+        /* Whether what is let through is bent is asked of the hit. */
+        accel->flags[item] = (unsigned char)(may_transmit(instance->texture) ? TRANSPARENT | STRAIGHT : 0u);
+        if (!is_empty(accel->prototypes[instance->prototype->number]->accel))
+            status = add_item(accel, item, instance->line, err);
+    }
+    return status;
+}
+
+/* Sort all items, and refuse what cannot be traced. */
+static int add_items(Accel *accel, RetexError *err)
+{
     const Bounds none = bounds_empty();
     accel->low = none.low, accel->high = none.high;
-    accel->eye = accel->parent ? 0 : vec_largest(scene->camera.location); /* no camera is in what has a parent */
-    for (int i = 0; i < scene->nprimitives; i++) {
-        const Primitive *primitive = &scene->primitives[i];
-        ShapeTriangles shape = {0, 0, NULL, NULL, 0, 0};
-        Vec3 low, high;
-        accel->flags[i] = primitive_flags(primitive);
-        if (is_elsewhere(accel, primitive))
-            continue;
-        if (!item_bounds(accel, i, &low, &high)) {
-            accel->planes[accel->nplanes++] = i;
-            continue;
-        }
-        if (is_by_triangles(accel, i)) {
-            primitive->shape.ops->triangles(&primitive->shape, &shape);
-            if (shape.ntriangles == 0)
-                continue;
-        }
-        if (!is_traceable(low, high))
-            return fail_untraceable(scene, primitive->line, err);
-        extend_bounds(accel, low, high);
-        if (shape.ntriangles == 0)
-            accel->curved[accel->ncurved++] = i;
-        accel->nvertices += (size_t)shape.nvertices;
-        accel->ntriangles += (size_t)shape.ntriangles;
-    }
-    return 0;
+    /* no camera is in what has a parent */
+    accel->eye = accel->parent ? 0 : vec_largest(accel->source->camera.location);
+    int status = add_primitives(accel, err);
+
+    if (status == 0)
+        status = add_csgs(accel, err);
+    return status ? status : add_instances(accel, err);
 }
 
 /* Bounds are made by minimum and maximum, which pass over NaN: so vertices are checked. */
@@ -290,7 +294,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
             add_triangle(accel, &count, base, shape.corners + (size_t)k * shape.stride, i, k / shape.per_face);
         base += (size_t)shape.nvertices;
     }
-    RETEX_ASSERT(base == accel->nvertices && count <= accel->ntriangles); /* what classify_primitives has counted */
+    RETEX_ASSERT(base == accel->nvertices && count <= accel->ntriangles); /* what add_item has counted */
     accel->ntriangles = count;
     return 0;
 }
@@ -446,11 +450,7 @@ static int fill(Accel *accel, RetexError *err)
     if (!accel->flags || !accel->curved || !accel->planes)
         status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     if (status == 0)
-        status = classify_primitives(accel, err);
-    if (status == 0)
-        status = classify_csgs(accel, err);
-    if (status == 0)
-        status = classify_instances(accel, err);
+        status = add_items(accel, err);
     if (status == 0)
         status = reserve_geometry(accel, err);
     if (status == 0)
