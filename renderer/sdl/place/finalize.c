@@ -164,20 +164,25 @@ static void find_background_light(Sdl *sdl)
         scene->background_only_seen &= !f->finish.retex.present;
 }
 
+/* Whether POV-Ray would show ambient: it has none beside radiosity, but in scenes of old versions. */
+static int has_ambient(Sdl *sdl)
+{
+    return !builder_of(sdl)->global.radiosity || sdl_version(sdl) < 3.7;
+}
+
 /* Small `ambient` stands for the indirect light that paths find; what is above it was made to be seen, and strong one
- * wholly, as that of skies, lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions.
- * Beside a bright background that lights it stands for the light that comes from there. Looks at the numbers as they
- * are written. */
+ * wholly, as that of skies, lamps and molecules. Beside a bright background that lights it stands for the light that
+ * comes from there. --ambient and --no-ambient say it of all. Looks at the numbers as they are written. */
 static void find_shining(Sdl *sdl)
 {
-    const TextureState *textures = textures_of(sdl);
-    const GlobalSettings *global = &builder_of(sdl)->global;
-    const int flag = sdl_options(sdl)->ambient, may = !global->radiosity || sdl_version(sdl) < 3.7;
     const Scene *scene = sdl_scene(sdl);
+    const int asked = sdl_options(sdl)->ambient; /* above 0: all of it; below: none */
     const float ordinary = ordinary_ambient(sdl),
                 background = scene->background_only_seen ? 0 : rgb_max(scene->background);
-    for (ParsedFinish *f = textures->finishes; f; f = f->next) {
-        const float share = flag ? flag > 0 : may ? shining_share(&f->finish, ordinary, background) : 0;
+    for (ParsedFinish *f = textures_of(sdl)->finishes; f; f = f->next) {
+        float share = asked > 0;
+        if (asked == 0 && has_ambient(sdl))
+            share = shining_share(&f->finish, ordinary, background);
         f->shines = share > 0;
         if (f->shines)
             f->finish.ambient = rgb_scale(f->finish.ambient, share);
