@@ -179,27 +179,36 @@ static int open_lamps(Lights *lights, RetexError *err)
 
 /* ---- the list ---- */
 
-/* Find the emitting shapes and the sky again, by what a ray met. */
-static int index_entries(Lights *lights, RetexError *err)
+static int find_sky(const LightEntries *list)
 {
-    const LightEntries *list = &lights->list;
-    const size_t most = (size_t)list->scene->nprimitives + (size_t)list->count + 1;
-    lights->of_primitive = malloc(most * sizeof *lights->of_primitive);
-    lights->emitter_sums = calloc(most, sizeof *lights->emitter_sums);
-    if (!lights->of_primitive || !lights->emitter_sums)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", list->count);
-    for (int k = 0; k < list->scene->nprimitives; k++)
-        lights->of_primitive[k] = -1;
+    int sky = -1;
     for (int k = 0; k < list->count; k++)
         if (list->entries[k].ops == &entry_sky)
-            lights->sky = k;
-    for (int k = 0; k < list->count && list->entries[k].ops->point; k++) {
-        RETEX_ASSERT(list->entries[k].index < list->scene->nprimitives); /* not a light source's, which are lights */
-        RETEX_ASSERT(lights->of_primitive[list->entries[k].index] < 0);  /* a primitive is one entry */
-        lights->of_primitive[list->entries[k].index] = k;
-        lights->emitter_sums[++lights->nemitters] = lights->emitter_sums[k] + list->entries[k].strength;
+            sky = k;
+    return sky;
+}
+
+/* Find the emitting shapes again by the primitives that a ray met, and sum their power. */
+static int index_emitters(Lights *lights, RetexError *err)
+{
+    const LightEntries *list = &lights->list;
+    const int nprimitives = list->scene->nprimitives;
+    int *of_primitive = lights->of_primitive = malloc(((size_t)nprimitives + 1) * sizeof *of_primitive);
+    double *sums = lights->emitter_sums = calloc((size_t)list->count + 1, sizeof *sums);
+    if (!of_primitive || !sums)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", list->count);
+    for (int k = 0; k < nprimitives; k++)
+        of_primitive[k] = -1;
+    int k = 0;
+    for (; k < list->count && list->entries[k].ops->point; k++) {
+        const LightEntry *shape = &list->entries[k];
+        RETEX_ASSERT(shape->index < nprimitives);    /* not a light source's, which are lights */
+        RETEX_ASSERT(of_primitive[shape->index] < 0); /* a primitive is one entry */
+        of_primitive[shape->index] = k;
+        sums[k + 1] = sums[k] + shape->strength;
     }
-    for (int k = lights->nemitters; k < list->count; k++)
+    lights->nemitters = k;
+    for (; k < list->count; k++)
         RETEX_ASSERT(!list->entries[k].ops->point); /* shapes stand first */
     return RETEX_OK;
 }
@@ -211,12 +220,12 @@ int lights_create(Lights **out, const Scene *scene, double lamp_share, RetexErro
     if (!lights)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the lights");
     lights->list.scene = scene;
-    lights->sky = -1;
     int code = RETEX_OK;
     for (size_t k = 0; k < sizeof ROWS / sizeof *ROWS && !code; k++)
         code = ROWS[k]->add ? ROWS[k]->add(&lights->list, err) : RETEX_OK;
     if (!code)
-        code = index_entries(lights, err);
+        code = index_emitters(lights, err);
+    lights->sky = find_sky(&lights->list);
     for (int k = 0; k < lights->list.count; k++)
         lights->list.entries[k].weight = scene->nlamps ? scene->lamps[lights->list.entries[k].lamp].weight : 1;
     if (!code)
