@@ -1,6 +1,6 @@
-/* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian with the stored
- * mean and standard deviations of the surface UV, which the texture's transform maps exactly. Where the texture is
- * transparent the original albedo of the footprint shows. */
+/* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian, an ellipse or a
+ * parallelogram (retex_footprint_filter) with the stored mean and spread of the surface UV, which the texture's
+ * transform maps exactly. Where the texture is transparent the original albedo of the footprint shows. */
 #include <retex/combine.h>
 #include <retex/edit.h>
 #include <retex/host/band_store.h>

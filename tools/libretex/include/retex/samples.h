@@ -11,7 +11,8 @@ extern "C" {
 #endif
 
 /* Samples are opaque. Sample i is the image of footprint i of the set: RGB, of the size of the footprint's parts. Where
- * the footprint's target keeps its original there is none. */
+ * the footprint's target keeps its original there is none. Of textures with a map of finishes or normals there are
+ * further images, which the calls here do not give: colours times the weights of each finish, and gates. */
 typedef struct RetexSamples RetexSamples;
 
 typedef struct RetexSamplesInfo {

@@ -4,12 +4,13 @@
  *
  *     I = sum over terms t of  C_t * product over the factors f of t of  A_f
  *
- * C_t is a radiance image. A factor is a quantity of the (new) texture at a footprint, or at several of them (a
- * mixture); an image; or a parameter, which has one value for the whole picture. A footprint holds, per pixel, where on
- * its target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. A
- * target that keeps its original is a factor too, by that mean; corrections make up for what a product of means differs
- * from the mean of products. Both layouts, 'paper' and 'footprints', are such polynomials and differ only in which
- * terms and footprints they list.
+ * over terms that count: those of role PICTURE and LAMP_PICTURE stand for the sum of others where nothing else is
+ * edited, and those of LAMP add what a lamp has beyond all others (RetexRole). C_t is a radiance image. A factor is a
+ * quantity of the (new) texture at a footprint, or at several of them (a mixture); an image; or a parameter, which has
+ * one value for the whole picture. A footprint holds, per pixel, where on its target the light that reached the pixel
+ * met it: mean UV, its spread, and the mean original albedo found there. A target that keeps its original is a factor
+ * too, by that mean; corrections make up for what a product of means differs from the mean of products. Both layouts,
+ * 'paper' and 'footprints', are such polynomials and differ only in which terms and footprints they list.
  * Source: 'Efficient physically-based retexturing in image-space', supplement 4.2 Eq. 4 and 4.3.
  *
  * On disk: a multi-part OpenEXR file. Part 0 is the beauty picture (plain R,G,B), so that any viewer shows something;
@@ -80,7 +81,7 @@ typedef enum RetexFootprintKind {
     RETEX_FOOTPRINT_HIT,            /* layout paper: the j-th hit of the target along the path */
     RETEX_FOOTPRINT_SHARP,          /* layout footprints: met first, seen directly, in mirrors or through glass */
     RETEX_FOOTPRINT_BROAD,          /* met first, by light scattered widely before */
-    RETEX_FOOTPRINT_INTERREFLECTION /* hits after the first one, pooled into two */
+    RETEX_FOOTPRINT_INTERREFLECTION /* hits after the first one, pooled into two, up to four where that shows */
 } RetexFootprintKind;
 enum { RETEX_FOOTPRINT_KINDS = RETEX_FOOTPRINT_INTERREFLECTION + 1 };
 
