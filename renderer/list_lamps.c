@@ -35,7 +35,8 @@ static void print_lamp(const Scene *scene, Lamp *lamp, double share)
     putchar('\n');
 }
 
-static double mean_luminance(const RetexImage *image, Rgb scale)
+/* Over all pixels, of the image times a colour. */
+static double luminance_sum(const RetexImage *image, Rgb scale)
 {
     double sum = 0;
     for (size_t i = 0; i < retex_image_index(image, 0, image->height); i += 3)
@@ -71,14 +72,14 @@ static int find_shares(const Arguments *a, const Scene *scene, double shares[LAM
     int code = render_scene(&set, scene, &params, &stats, err);
     if (code)
         return code;
-    const double all = mean_luminance(&retex_set_part(set, 0)->image, rgb_grey(1));
+    const double all = luminance_sum(&retex_set_part(set, 0)->image, rgb_grey(1));
     for (int t = 0; (term = retex_set_term(set, t)); t++)
         if (term->role == RETEX_ROLE_LAMP) {
             const char *name = retex_set_parameter(set, term->factors[0].index)->name;
             for (int l = 0; l < scene->nlamps && all > 0; l++)
                 if (strcmp(scene->lamps[l].name, name) == 0)
                     shares[l] =
-                        mean_luminance(&retex_set_part(set, term->radiance)->image, scene->lamps[l].value) / all;
+                        luminance_sum(&retex_set_part(set, term->radiance)->image, scene->lamps[l].value) / all;
         }
     retex_set_close(&set);
     return RETEX_OK;

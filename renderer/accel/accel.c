@@ -21,7 +21,7 @@ static int copy_bounds(const Accel *shared, const Transform *transform, Vec3 *lo
 {
     Bounds all = bounds_empty();
 
-    if (shared->nplanes > 0)
+    if (shared->nunbounded > 0)
         return 0;
     for (int k = 0; k < 8; k++) {
         Vec3 corner = vec3(k & 1 ? shared->high.x : shared->low.x, k & 2 ? shared->high.y : shared->low.y,
@@ -162,7 +162,7 @@ static int add_item(Accel *accel, int item, int line, RetexError *err)
     Vec3 low, high;
 
     if (!item_bounds(accel, item, &low, &high)) {
-        accel->planes[accel->nplanes++] = item;
+        accel->unbounded[accel->nunbounded++] = item;
         return 0;
     }
     if (is_by_triangles(accel, item)) {
@@ -183,50 +183,50 @@ static int add_item(Accel *accel, int item, int line, RetexError *err)
 
 static int is_empty(const Accel *accel)
 {
-    return accel->nplanes + accel->ncurved == 0 && accel->ntriangles == 0;
+    return accel->nunbounded + accel->ncurved == 0 && accel->ntriangles == 0;
 }
 
 static int add_primitives(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < scene->nprimitives && status == 0; i++) {
+    for (int i = 0; i < scene->nprimitives && code == 0; i++) {
         const Primitive *primitive = &scene->primitives[i];
         accel->flags[i] = primitive_flags(primitive);
         if (!is_elsewhere(accel, primitive))
-            status = add_item(accel, i, primitive->line, err);
+            code = add_item(accel, i, primitive->line, err);
     }
-    return status;
+    return code;
 }
 
 /* CSGs are user geometry as curved shapes are. Their operands are no geometry by themselves. */
 static int add_csgs(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < scene->ncsgs && status == 0; i++)
+    for (int i = 0; i < scene->ncsgs && code == 0; i++)
         if (!bounds_is_empty(&scene->csgs[i]->surface))
-            status = add_item(accel, ~i, scene->csgs[i]->line, err);
-    return status;
+            code = add_item(accel, ~i, scene->csgs[i]->line, err);
+    return code;
 }
 
 /* Primitives of prototypes are where the instances are. */
 static int add_instances(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < scene->ninstances && status == 0; i++) {
+    for (int i = 0; i < scene->ninstances && code == 0; i++) {
         const Instance *instance = &scene->instances[i];
         const int item = scene->nprimitives + i;
         /* Whether what is let through is bent is asked of the hit. */
         accel->flags[item] = (unsigned char)(may_transmit(instance->texture) ? TRANSPARENT | STRAIGHT : 0u);
         if (!is_empty(accel->prototypes[instance->prototype->number]->accel))
-            status = add_item(accel, item, instance->line, err);
+            code = add_item(accel, item, instance->line, err);
     }
-    return status;
+    return code;
 }
 
 /* Sort all items, and refuse what cannot be traced. */
@@ -236,11 +236,11 @@ static int add_items(Accel *accel, RetexError *err)
     accel->low = none.low, accel->high = none.high;
     /* no camera is in what has a parent */
     accel->eye = accel->parent ? 0 : vec_largest(accel->source->camera.location);
-    int status = add_primitives(accel, err);
+    int code = add_primitives(accel, err);
 
-    if (status == 0)
-        status = add_csgs(accel, err);
-    return status ? status : add_instances(accel, err);
+    if (code == 0)
+        code = add_csgs(accel, err);
+    return code ? code : add_instances(accel, err);
 }
 
 /* Bounds are made by minimum and maximum, which pass over NaN: so vertices are checked. */
@@ -370,11 +370,11 @@ static Accel *device_owner(Accel *accel)
 /* An error of Embree is one of the budget, if that is used up. */
 static int build_error(Accel *accel, RetexError *err)
 {
-    int status = retex_budget_check(accel->budget, err);
+    int code = retex_budget_check(accel->budget, err);
 
-    if (!status && atomic_load(&accel->over_budget))
-        status = retex_budget_charge(accel->budget, UINT64_MAX, "the scene's geometry", err);
-    return status ? status : retex_fail(err, accel->error.code, "%s", accel->error.message);
+    if (!code && atomic_load(&accel->over_budget))
+        code = retex_budget_charge(accel->budget, UINT64_MAX, "the scene's geometry", err);
+    return code ? code : retex_fail(err, accel->error.code, "%s", accel->error.message);
 }
 
 static int open_device(Accel *accel, int nthreads, RetexError *err)
@@ -395,7 +395,7 @@ static int open_device(Accel *accel, int nthreads, RetexError *err)
 
 static int build(Accel *accel, RetexError *err)
 {
-    int status;
+    int code;
 
     accel->scene = rtcNewScene(accel->device);
     rtcSetSceneFlags(accel->scene, RTC_SCENE_FLAG_ROBUST);
@@ -403,9 +403,9 @@ static int build(Accel *accel, RetexError *err)
                                                                                    : RTC_BUILD_QUALITY_MEDIUM);
     accel->triangle_geometry = accel->curved_geometry = RTC_INVALID_GEOMETRY_ID;
     if (accel->ntriangles > 0) {
-        status = add_triangle_geometry(accel, err);
-        if (status < 0)
-            return status;
+        code = add_triangle_geometry(accel, err);
+        if (code < 0)
+            return code;
     }
     if (accel->ncurved > 0)
         add_curved_geometry(accel);
@@ -420,10 +420,10 @@ static int reserve_geometry(Accel *accel, RetexError *err)
     const size_t vertices = (accel->nvertices + 1) * sizeof(Vec3),
                  corners = (accel->ntriangles + 1) * sizeof(*accel->corners),
                  triangles = (accel->ntriangles + 1) * sizeof(Triangle), all = vertices + corners + triangles;
-    int status = retex_budget_charge(accel->budget, all, "the scene's geometry", err);
+    int code = retex_budget_charge(accel->budget, all, "the scene's geometry", err);
 
-    if (status < 0)
-        return status;
+    if (code < 0)
+        return code;
     accel->charged = all;
     accel->vertices = malloc(vertices);
     accel->corners = malloc(corners);
@@ -442,32 +442,32 @@ static int fill(Accel *accel, RetexError *err)
 {
     const size_t count =
         (size_t)accel->source->nprimitives + (size_t)accel->source->ncsgs + (size_t)accel->source->ninstances + 1;
-    int status = 0;
+    int code = 0;
 
     accel->flags = calloc(count, 1);
     accel->curved = calloc(count, sizeof(int));
-    accel->planes = calloc(count, sizeof(int));
-    if (!accel->flags || !accel->curved || !accel->planes)
-        status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
-    if (status == 0)
-        status = add_items(accel, err);
-    if (status == 0)
-        status = reserve_geometry(accel, err);
-    if (status == 0)
-        status = collect_triangles(accel, err);
-    if (status == 0)
-        status = build(accel, err);
+    accel->unbounded = calloc(count, sizeof(int));
+    if (!accel->flags || !accel->curved || !accel->unbounded)
+        code = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+    if (code == 0)
+        code = add_items(accel, err);
+    if (code == 0)
+        code = reserve_geometry(accel, err);
+    if (code == 0)
+        code = collect_triangles(accel, err);
+    if (code == 0)
+        code = build(accel, err);
     free(accel->vertices);
     accel->vertices = NULL;
-    return status;
+    return code;
 }
 
 /* Each of what is shared, with the device and the budget of the whole. */
 static int create_shared(Accel *accel, RetexError *err)
 {
-    int status = accel_find_shared(accel, err);
+    int code = accel_find_shared(accel, err);
 
-    for (Shared *shared = accel->all_shared; shared && status == 0; shared = shared->next) {
+    for (Shared *shared = accel->all_shared; shared && code == 0; shared = shared->next) {
         shared->accel = calloc(1, sizeof(*shared->accel));
         if (!shared->accel)
             return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
@@ -476,30 +476,30 @@ static int create_shared(Accel *accel, RetexError *err)
         shared->accel->parent = accel;
         shared->accel->device = accel->device;
         rtcRetainDevice(accel->device);
-        status = fill(shared->accel, err);
+        code = fill(shared->accel, err);
     }
-    return status;
+    return code;
 }
 
 int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err)
 {
     Accel *accel = calloc(1, sizeof(*accel));
-    int status;
+    int code;
 
     *out = NULL;
     if (!accel)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     accel->source = scene;
     accel->budget = budget;
-    status = open_device(accel, nthreads, err);
-    if (status == 0)
-        status = create_shared(accel, err);
-    if (status == 0)
-        status = fill(accel, err);
-    if (status < 0)
+    code = open_device(accel, nthreads, err);
+    if (code == 0)
+        code = create_shared(accel, err);
+    if (code == 0)
+        code = fill(accel, err);
+    if (code < 0)
         accel_close(&accel);
     *out = accel;
-    return status;
+    return code;
 }
 
 void accel_close(Accel **accel)
@@ -518,7 +518,7 @@ void accel_close(Accel **accel)
     free(a->corners);
     free(a->triangles);
     free(a->curved);
-    free(a->planes);
+    free(a->unbounded);
     free(a->flags);
     retex_budget_release(a->budget, a->charged);
     free(a);

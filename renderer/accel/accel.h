@@ -1,5 +1,5 @@
-/* Ray queries on the scene, through Embree (this is the only folder that knows it). Planes, which have no bounds, are
- * tested beside it. */
+/* Ray queries on the scene, through Embree (this is the only folder that knows it). What is unbounded, such as planes,
+ * is tested beside it. */
 #ifndef RENDERER_ACCEL_ACCEL_H
 #define RENDERER_ACCEL_ACCEL_H
 

@@ -41,9 +41,10 @@ struct Accel {
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;
-    /* Items: primitives, by index, CSGs: ~index, and instances: index + nprimitives; without bounds: planes. */
-    int *curved, *planes;
-    int ncurved, nplanes;
+    /* Items: primitives, by index, CSGs: ~index, and instances: index + nprimitives. What is unbounded is tested beside
+     * Embree: planes, polynomials, CSGs and instances of these. */
+    int *curved, *unbounded;
+    int ncurved, nunbounded;
     Shared **shared;     /* by primitive: its mesh, or NULL; NULL: there are none */
     Shared **prototypes; /* by number */
     Shared *all_shared;

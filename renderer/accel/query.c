@@ -431,19 +431,19 @@ static inline int start_single(QueryRay *query_ray, struct RTCRay *to, const Acc
     return start_ray(query_ray, accel, ray, kind, passes, outer, hit, &to->tnear, &to->tfar);
 }
 
-/* 1 if an opaque plane occludes the ray. */
-static int plane_blocks(const Accel *accel, QueryRay *query_ray)
+/* 1 if something opaque that is unbounded occludes the ray. */
+static int unbounded_blocks(const Accel *accel, QueryRay *query_ray)
 {
-    for (int i = 0; i < accel->nplanes; i++)
-        if (shape_blocks(accel, query_ray, accel->planes[i]))
+    for (int i = 0; i < accel->nunbounded; i++)
+        if (shape_blocks(accel, query_ray, accel->unbounded[i]))
             return 1;
     return 0;
 }
 
-static inline void test_planes(const Accel *accel, QueryRay *query_ray)
+static inline void test_unbounded(const Accel *accel, QueryRay *query_ray)
 {
-    for (int i = 0; i < accel->nplanes; i++)
-        test_shape(accel, query_ray, accel->planes[i]);
+    for (int i = 0; i < accel->nunbounded; i++)
+        test_shape(accel, query_ray, accel->unbounded[i]);
 }
 
 /* ---- single rays ---- */
@@ -507,7 +507,7 @@ static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind,
     start_query(&query, accel, 0, &query_ray);
     if (start_single(&query_ray, &along, accel, ray, kind, 0, outer, hit)) {
         embree_occluded(&query, &along);
-        test_planes(accel, &query_ray);
+        test_unbounded(accel, &query_ray);
     }
     return hit->primitive >= 0;
 }
@@ -527,7 +527,7 @@ static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, Oute
     if (!refine_triangle_hit(accel, &query_ray, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar,
                              rayhit.hit.u, rayhit.hit.v))
         return intersect_in_double(accel, ray, kind, outer, hit);
-    test_planes(accel, &query_ray);
+    test_unbounded(accel, &query_ray);
     return hit->primitive >= 0;
 }
 
@@ -545,7 +545,7 @@ static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind k
     start_query(&query, accel, 0, &query_ray);
     if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, outer, NULL))
         return VISIBILITY_CLEAR;
-    if (plane_blocks(accel, &query_ray))
+    if (unbounded_blocks(accel, &query_ray))
         return VISIBILITY_BLOCKED;
     embree_occluded(&query, &occluded);
     return occluded.tfar < 0 ? VISIBILITY_BLOCKED : query_ray.passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
@@ -578,7 +578,7 @@ static void start_packet(Packet *p, const Accel *accel, const Ray *rays, int cou
     lanes_start(&p->lanes, accel->reach, &p->rays.ray, p->valid);
 }
 
-/* For callbacks and planes. */
+/* For callbacks and what is unbounded. */
 static void make_query_ray(Packet *p, int i, const Ray *ray, RayKind kind, unsigned passes, Hit *hit)
 {
     p->query_rays[i] = (QueryRay){.ray = *ray,
@@ -649,7 +649,7 @@ static int is_nearest(const Packet *p, const Accel *accel, const LaneTriangles *
 void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
                             Hit *hits)
 {
-    const int has_shapes = accel->ncurved + accel->nplanes > 0;
+    const int has_shapes = accel->ncurved + accel->nunbounded > 0;
     RETEX_ASSERT(count <= ACCEL_PACKET);
     Packet p;
     Query query;
@@ -670,10 +670,10 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
             intersect_in_double(accel, &rays[i], kinds[i], no_outer, &hits[i]);
             continue;
         }
-        if (accel->nplanes && hits[i].primitive >= 0)
+        if (accel->nunbounded && hits[i].primitive >= 0)
             p.query_rays[i].ray.tmax = hits[i].t * (1 + DBL_EPSILON);
-        if (accel->nplanes)
-            test_planes(accel, &p.query_rays[i]);
+        if (accel->nunbounded)
+            test_unbounded(accel, &p.query_rays[i]);
     }
 }
 
@@ -698,7 +698,7 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
     rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
 #endif
     for (int i = 0; i < count; i++) {
-        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.query_rays[i]));
+        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || unbounded_blocks(accel, &p.query_rays[i]));
         visibilities[i] = blocked                 ? VISIBILITY_BLOCKED
                           : p.query_rays[i].passed ? VISIBILITY_TRANSPARENT
                                                   : VISIBILITY_CLEAR;

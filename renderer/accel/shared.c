@@ -96,11 +96,11 @@ int accel_find_shared(Accel *accel, RetexError *err)
 {
     const size_t n = (size_t)accel->source->nprimitives + 1;
     Use *uses = malloc(n * sizeof *uses);
-    int count = uses ? list_uses(accel->source, uses) : 0, status = 0;
+    int count = uses ? list_uses(accel->source, uses) : 0, code = 0;
 
     if (!uses)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
-    for (int i = 0, end; i < count && status == 0; i = end) {
+    for (int i = 0, end; i < count && code == 0; i = end) {
         end = i + 1;
         while (end < count && uses[end].mesh->faces == uses[i].mesh->faces)
             end++;
@@ -108,13 +108,13 @@ int accel_find_shared(Accel *accel, RetexError *err)
             continue;
         if (!accel->shared)
             accel->shared = calloc(n, sizeof(*accel->shared));
-        status = accel->shared ? share(accel, &uses[i], end - i, err)
+        code = accel->shared ? share(accel, &uses[i], end - i, err)
                                : retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     }
     free(uses);
-    if (status == 0 && accel->source->nprototypes > 0)
-        status = share_prototypes(accel, err);
-    return status;
+    if (code == 0 && accel->source->nprototypes > 0)
+        code = share_prototypes(accel, err);
+    return code;
 }
 
 void accel_free_shared(Accel *accel)

@@ -192,12 +192,12 @@ static int *flat_of_mesh(const Primitive *p)
     Flat f = {.primitive = p, .mesh = p->shape.mesh};
     const size_t nfaces = (size_t)f.mesh->nfaces, nvertices = (size_t)f.mesh->nvertices;
     const size_t most = 3 * nfaces > nvertices ? 3 * nfaces : nvertices;
-    size_t slots = 16;
-    while (slots < most)
-        slots *= 2;
-    f.mask = (unsigned)(slots - 1);
+    size_t buckets = 16;
+    while (buckets < most)
+        buckets *= 2;
+    f.mask = (unsigned)(buckets - 1);
     f.same = malloc((nvertices + 1) * sizeof *f.same);
-    f.heads = calloc(slots, sizeof *f.heads);
+    f.heads = calloc(buckets, sizeof *f.heads);
     f.next = malloc((most + 1) * sizeof *f.next);
     f.normal = malloc((nfaces + 1) * sizeof *f.normal);
     f.label = malloc((nfaces + 1) * sizeof *f.label);
@@ -205,7 +205,7 @@ static int *flat_of_mesh(const Primitive *p)
     if (made) {
         set_normals(&f);
         find_same_vertices(&f);
-        memset(f.heads, 0, slots * sizeof *f.heads);
+        memset(f.heads, 0, buckets * sizeof *f.heads);
         join_over_edges(&f);
         for (int i = 0; i < f.mesh->nfaces; i++)
             if (f.label[i] >= 0)

@@ -250,17 +250,17 @@ static int store_rows(BandRows *rows, int k, RetexError *err)
     Bands *bands = rows->of;
     BandImage *image = bands->images[k];
     size_t count = band_size(bands, k, rows->band);
-    float *kept = rows->rows[k];
+    float *pixels = rows->rows[k];
     int code = RETEX_OK;
     rows->rows[k] = NULL;
     if (bands->store)
-        code = retex_band_store_put(bands->store, image->store_image, rows->band, kept, err);
+        code = retex_band_store_put(bands->store, image->store_image, rows->band, pixels, err);
     if (bands->whole) {
-        mark_filled(image, kept, count);
+        mark_filled(image, pixels, count);
         return code;
     }
-    memset(kept, 0, count * sizeof *kept);
-    rows->cleared[k] = kept;
+    memset(pixels, 0, count * sizeof *pixels);
+    rows->cleared[k] = pixels;
     return code;
 }
 

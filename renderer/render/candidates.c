@@ -28,37 +28,37 @@ typedef struct Collection {
     Candidates *all;
     Materials materials;
     SceneFaces faces;
-    int capacity, nslots, failed;
-    int *slots;      /* by hash: index + 1, or 0 */
+    int capacity, nbuckets, failed;
+    int *buckets;      /* by hash: index + 1, or 0 */
     SeenPixel *seen; /* by pixel */
     int pixel;
     float most; /* share of the leaf that is seen most at this pixel */
 } Collection;
 
-static int *find_slot(const Collection *c, const char *text)
+static int *find_bucket(const Collection *c, const char *text)
 {
-    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(c->nslots - 1);
-    while (c->slots[i] && strcmp(c->all->list[c->slots[i] - 1].text, text) != 0)
-        i = (i + 1) & (size_t)(c->nslots - 1);
-    return &c->slots[i];
+    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(c->nbuckets - 1);
+    while (c->buckets[i] && strcmp(c->all->list[c->buckets[i] - 1].text, text) != 0)
+        i = (i + 1) & (size_t)(c->nbuckets - 1);
+    return &c->buckets[i];
 }
 
 static int grow(Collection *c)
 {
     const int capacity = c->capacity ? 2 * c->capacity : 256;
     Candidate *list = realloc(c->all->list, (size_t)capacity * sizeof *list);
-    int *slots = calloc(2 * (size_t)capacity, sizeof *slots);
+    int *buckets = calloc(2 * (size_t)capacity, sizeof *buckets);
     if (list)
         c->all->list = list;
-    if (!list || !slots) {
-        free(slots);
+    if (!list || !buckets) {
+        free(buckets);
         return 0;
     }
-    free(c->slots);
-    c->slots = slots;
-    c->capacity = capacity, c->nslots = 2 * capacity;
+    free(c->buckets);
+    c->buckets = buckets;
+    c->capacity = capacity, c->nbuckets = 2 * capacity;
     for (int k = 0; k < c->all->count; k++)
-        *find_slot(c, list[k].text) = k + 1;
+        *find_bucket(c, list[k].text) = k + 1;
     return 1;
 }
 
@@ -69,17 +69,17 @@ static int add(Collection *c, const char *text, const char *kind, const PlaceLis
         c->failed = 1;
         return -1;
     }
-    int *slot = find_slot(c, text);
-    if (!*slot) {
+    int *bucket = find_bucket(c, text);
+    if (!*bucket) {
         char *copy = strdup(text);
         c->failed |= !copy;
         if (!copy)
             return -1;
         c->all->list[c->all->count++] = (Candidate){.text = copy, .kind = kind, .place = place};
-        *slot = c->all->count;
+        *bucket = c->all->count;
     }
-    c->all->list[*slot - 1].share += (double)share;
-    return *slot - 1;
+    c->all->list[*bucket - 1].share += (double)share;
+    return *bucket - 1;
 }
 
 static const char *kind_of(const Shape *shape)
@@ -415,7 +415,7 @@ int render_candidates(Candidates *candidates, RetexImage *sheet, const Scene *sc
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for the list of targets");
     if (!code && candidates->count)
         qsort(candidates->list, (size_t)candidates->count, sizeof *candidates->list, compare);
-    free(c.slots);
+    free(c.buckets);
     free(c.seen);
     materials_close(&c.materials);
     scene_faces_close(&c.faces);

@@ -56,24 +56,24 @@ void cryptomatte_key(char key[8], const char *kind)
 
 /* ---- names that were seen ---- */
 
-static CryptoName *find_slot(const CryptoNames *names, const char *name, uint32_t hash)
+static CryptoName *find_bucket(const CryptoNames *names, const char *name, uint32_t hash)
 {
-    size_t i = hash & (size_t)(names->nslots - 1);
-    while (names->slots[i].name && strcmp(names->slots[i].name, name) != 0)
-        i = (i + 1) & (size_t)(names->nslots - 1);
-    return &names->slots[i];
+    size_t i = hash & (size_t)(names->nbuckets - 1);
+    while (names->buckets[i].name && strcmp(names->buckets[i].name, name) != 0)
+        i = (i + 1) & (size_t)(names->nbuckets - 1);
+    return &names->buckets[i];
 }
 
 static int grow(CryptoNames *names)
 {
-    CryptoNames larger = {.nslots = names->nslots ? 2 * names->nslots : 64, .count = names->count};
-    larger.slots = calloc((size_t)larger.nslots, sizeof *larger.slots);
-    if (!larger.slots)
+    CryptoNames larger = {.nbuckets = names->nbuckets ? 2 * names->nbuckets : 64, .count = names->count};
+    larger.buckets = calloc((size_t)larger.nbuckets, sizeof *larger.buckets);
+    if (!larger.buckets)
         return 0;
-    for (int k = 0; k < names->nslots; k++)
-        if (names->slots[k].name)
-            *find_slot(&larger, names->slots[k].name, cryptomatte_hash(names->slots[k].name)) = names->slots[k];
-    free(names->slots);
+    for (int k = 0; k < names->nbuckets; k++)
+        if (names->buckets[k].name)
+            *find_bucket(&larger, names->buckets[k].name, cryptomatte_hash(names->buckets[k].name)) = names->buckets[k];
+    free(names->buckets);
     larger.failed = names->failed;
     *names = larger;
     return 1;
@@ -83,32 +83,32 @@ float crypto_names_add(CryptoNames *names, const char *name)
 {
     const uint32_t hash = cryptomatte_hash(name);
     const float number = cryptomatte_number(hash);
-    if (2 * names->count >= names->nslots && !grow(names)) {
+    if (2 * names->count >= names->nbuckets && !grow(names)) {
         names->failed = 1;
         return number;
     }
-    CryptoName *slot = find_slot(names, name, hash);
-    if (slot->name)
+    CryptoName *bucket = find_bucket(names, name, hash);
+    if (bucket->name)
         return number;
-    *slot = (CryptoName){strdup(name), number};
-    names->failed |= !slot->name;
-    names->count += slot->name != NULL;
+    *bucket = (CryptoName){strdup(name), number};
+    names->failed |= !bucket->name;
+    names->count += bucket->name != NULL;
     return number;
 }
 
 void crypto_names_join(CryptoNames *names, const CryptoNames *others)
 {
-    for (int k = 0; k < others->nslots; k++)
-        if (others->slots[k].name)
-            crypto_names_add(names, others->slots[k].name);
+    for (int k = 0; k < others->nbuckets; k++)
+        if (others->buckets[k].name)
+            crypto_names_add(names, others->buckets[k].name);
     names->failed |= others->failed;
 }
 
 void crypto_names_close(CryptoNames *names)
 {
-    for (int k = 0; k < names->nslots; k++)
-        free(names->slots[k].name);
-    free(names->slots);
+    for (int k = 0; k < names->nbuckets; k++)
+        free(names->buckets[k].name);
+    free(names->buckets);
     *names = (CryptoNames){0};
 }
 
@@ -139,9 +139,9 @@ char *crypto_names_manifest(const CryptoNames *names)
     CryptoName *sorted = malloc(((size_t)names->count + 1) * sizeof *sorted);
     size_t bytes = AROUND;
     int count = 0;
-    for (int k = 0; k < names->nslots && sorted; k++)
-        if (names->slots[k].name)
-            sorted[count++] = names->slots[k], bytes += ESCAPED * strlen(names->slots[k].name) + AROUND;
+    for (int k = 0; k < names->nbuckets && sorted; k++)
+        if (names->buckets[k].name)
+            sorted[count++] = names->buckets[k], bytes += ESCAPED * strlen(names->buckets[k].name) + AROUND;
     char *text = sorted ? malloc(bytes) : NULL, *to = text;
     if (text) {
         qsort(sorted, (size_t)count, sizeof *sorted, compare_names);

@@ -20,8 +20,8 @@ typedef struct CryptoName {
 
 /* Begins with zeros. */
 typedef struct CryptoNames {
-    CryptoName *slots; /* by hash */
-    int nslots, count, failed; /* failed: memory was short, some are missing */
+    CryptoName *buckets; /* by hash */
+    int nbuckets, count, failed; /* failed: memory was short, some are missing */
 } CryptoNames;
 
 /* Its number; the name is added where it is new. */

@@ -25,38 +25,38 @@ typedef struct Finding {
     Surfaces *all;
     SceneSurfaces *known;
     ShownSurface *shown; /* by pixel; no primitive: nothing is hit */
-    int *slots, nslots;  /* surfaces by their text: index + 1, or 0 */
+    int *buckets, nbuckets;  /* surfaces by their text: index + 1, or 0 */
     int capacity;
     SeenFace *faces;
-    int *face_slots, nface_slots, nfaces; /* the same of faces */
+    int *face_buckets, nface_buckets, nfaces; /* the same of faces */
     int *face_of;                         /* by pixel, or -1 */
 } Finding;
 
 /* ---- the list ---- */
 
-static int *find_slot(const Finding *f, const char *text)
+static int *find_bucket(const Finding *f, const char *text)
 {
-    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(f->nslots - 1);
-    while (f->slots[i] && strcmp(f->all->list[f->slots[i] - 1].text, text) != 0)
-        i = (i + 1) & (size_t)(f->nslots - 1);
-    return &f->slots[i];
+    size_t i = digest_text(DIGEST_BEGIN, text) & (size_t)(f->nbuckets - 1);
+    while (f->buckets[i] && strcmp(f->all->list[f->buckets[i] - 1].text, text) != 0)
+        i = (i + 1) & (size_t)(f->nbuckets - 1);
+    return &f->buckets[i];
 }
 
 static int grow(Finding *f)
 {
     const int capacity = f->capacity ? 2 * f->capacity : 256;
     SeenSurface *list = realloc(f->all->list, (size_t)capacity * sizeof *list);
-    int *slots = calloc(2 * (size_t)capacity, sizeof *slots);
+    int *buckets = calloc(2 * (size_t)capacity, sizeof *buckets);
     if (list)
         f->all->list = list;
-    if (!list || !slots) {
-        free(slots);
+    if (!list || !buckets) {
+        free(buckets);
         return 0;
     }
-    free(f->slots);
-    f->slots = slots, f->nslots = 2 * capacity, f->capacity = capacity;
+    free(f->buckets);
+    f->buckets = buckets, f->nbuckets = 2 * capacity, f->capacity = capacity;
     for (int k = 0; k < f->all->count; k++)
-        *find_slot(f, list[k].text) = k + 1;
+        *find_bucket(f, list[k].text) = k + 1;
     return 1;
 }
 
@@ -65,15 +65,15 @@ static int add(Finding *f, const char *text, SelectorScope scope, const char *na
 {
     if (f->all->count == f->capacity && !grow(f))
         return -1;
-    int *slot = find_slot(f, text);
-    if (!*slot && f->all->count < SURFACES_MAX) {
+    int *bucket = find_bucket(f, text);
+    if (!*bucket && f->all->count < SURFACES_MAX) {
         char *copy = strdup(text);
         if (!copy)
             return -1;
         f->all->list[f->all->count++] = (SeenSurface){.text = copy, .scope = scope, .name = name};
-        *slot = f->all->count;
+        *bucket = f->all->count;
     }
-    return *slot;
+    return *bucket;
 }
 
 /* ---- first hits ---- */
@@ -97,14 +97,14 @@ static int find_face(Finding *f, const ShownSurface *shown)
         const Primitive *primitive;
         size_t face;
     } key = {shown->primitive, (size_t)shown->face};
-    size_t i = digest_bytes(DIGEST_BEGIN, &key, sizeof key) & (size_t)(f->nface_slots - 1);
-    for (; f->face_slots[i]; i = (i + 1) & (size_t)(f->nface_slots - 1)) {
-        const SeenFace *face = &f->faces[f->face_slots[i] - 1];
+    size_t i = digest_bytes(DIGEST_BEGIN, &key, sizeof key) & (size_t)(f->nface_buckets - 1);
+    for (; f->face_buckets[i]; i = (i + 1) & (size_t)(f->nface_buckets - 1)) {
+        const SeenFace *face = &f->faces[f->face_buckets[i] - 1];
         if (face->primitive == shown->primitive && face->face == shown->face)
-            return f->face_slots[i] - 1;
+            return f->face_buckets[i] - 1;
     }
     f->faces[f->nfaces] = (SeenFace){.primitive = shown->primitive, .face = shown->face};
-    f->face_slots[i] = ++f->nfaces;
+    f->face_buckets[i] = ++f->nfaces;
     return f->nfaces - 1;
 }
 
@@ -305,14 +305,14 @@ static int open_finding(Finding *f)
 {
     const FirstHitWindow *w = f->window;
     const size_t pixels = (size_t)w->w * (size_t)w->h;
-    for (f->nface_slots = 16; (size_t)f->nface_slots < 2 * pixels;)
-        f->nface_slots *= 2;
+    for (f->nface_buckets = 16; (size_t)f->nface_buckets < 2 * pixels;)
+        f->nface_buckets *= 2;
     f->all->planes = calloc(SURFACE_SCOPES * pixels, sizeof *f->all->planes);
     f->shown = malloc(pixels * sizeof *f->shown);
     f->faces = malloc(pixels * sizeof *f->faces);
     f->face_of = malloc(pixels * sizeof *f->face_of);
-    f->face_slots = calloc((size_t)f->nface_slots, sizeof *f->face_slots);
-    return f->all->planes && f->shown && f->faces && f->face_of && f->face_slots;
+    f->face_buckets = calloc((size_t)f->nface_buckets, sizeof *f->face_buckets);
+    return f->all->planes && f->shown && f->faces && f->face_of && f->face_buckets;
 }
 
 int scene_surfaces_open(SceneSurfaces *known, const Scene *scene, RetexError *err)
@@ -355,8 +355,8 @@ int surfaces_find(Surfaces *surfaces, SceneSurfaces *known, const FirstHitWindow
     free(f.shown);
     free(f.faces);
     free(f.face_of);
-    free(f.face_slots);
-    free(f.slots);
+    free(f.face_buckets);
+    free(f.buckets);
     if (is_right)
         return RETEX_OK;
     surfaces_close(surfaces, budget);

@@ -136,7 +136,7 @@ static void moments_are_merged(void **state)
 }
 
 /* Of two footprints in each pixel, the near ones of all pixels are merged, and the far ones, whose light stays theirs:
- * also where the order of the slots changes from pixel to pixel. */
+ * also where the order of the members changes from pixel to pixel. */
 static void light_goes_with_its_footprint(void **state)
 {
     RetexSet *set = cluster_set(RETEX_FOOTPRINT_SHARP, 2);

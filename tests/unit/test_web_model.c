@@ -86,7 +86,7 @@ static double of_mixture(const RetexWebModel *model, int index)
     for (int i = 0; i < mixture->nclasses; i++) {
         const RetexWebClass *c = &model->classes[mixture->classes[i].index];
         for (int k = 0; k < c->nfootprints; k++) {
-            const int weight = c->weights[mixture->classes[i].slot][k];
+            const int weight = c->weights[mixture->classes[i].weighting][k];
             sum += (weight == RETEX_WEB_WEIGHT_NONE  ? 0
                     : weight == RETEX_WEB_WEIGHT_ONE ? 1
                                                      : of_part(weight)) *
@@ -125,7 +125,7 @@ static void expect_classes(const RetexWebModel *model, const RetexSet *set)
     for (int i = 0; i < model->nclasses; i++) {
         const RetexWebClass *c = &model->classes[i];
         count += c->nfootprints;
-        assert_in_range(c->nslots, 0, RETEX_WEB_SLOTS);
+        assert_in_range(c->nweightings, 0, RETEX_WEB_WEIGHTINGS);
         for (int k = 0; k < c->nfootprints; k++) {
             const RetexFootprint *f = &set->footprints[c->footprints[k]];
             assert_true(f->target == c->target && f->kind == c->kind && f->albedo == c->albedo);

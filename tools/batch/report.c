@@ -95,7 +95,7 @@ static void print_mistakes(FILE *file, const Batch *batch, int first, int end)
     const TextureTable *table = &batch->table;
     int printed = 0;
     fprintf(file, "  \"mistakes\": [");
-    for (int i = 0; i < table->kept; i++)
+    for (int i = 0; i < table->nlisted; i++)
         if (texture_table_concerns(&table->mistakes[i], first, end))
             print_item(file, !printed++,
                        json_pack("{s:i, s:o}", "line", table->mistakes[i].line, "error",

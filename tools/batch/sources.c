@@ -15,12 +15,12 @@
 
 /* ---- checksums of files ---- */
 
-static struct SourceSum *find_slot(const SourceSums *sums, const char *path)
+static struct SourceSum *find_bucket(const SourceSums *sums, const char *path)
 {
     size_t at = retex_bytes_sum(0, path, strlen(path)) & (sums->capacity - 1);
-    while (sums->slots[at].path && strcmp(sums->slots[at].path, path) != 0)
+    while (sums->buckets[at].path && strcmp(sums->buckets[at].path, path) != 0)
         at = (at + 1) & (sums->capacity - 1);
-    return &sums->slots[at];
+    return &sums->buckets[at];
 }
 
 /* Double the table when it is half full. */
@@ -29,13 +29,13 @@ static int grow_sums(SourceSums *sums)
     SourceSums more = {.count = sums->count, .capacity = sums->capacity ? 2 * sums->capacity : 256};
     if (2 * sums->count < sums->capacity)
         return 1;
-    more.slots = calloc(more.capacity, sizeof *more.slots);
-    if (!more.slots)
+    more.buckets = calloc(more.capacity, sizeof *more.buckets);
+    if (!more.buckets)
         return 0;
     for (size_t i = 0; i < sums->capacity; i++)
-        if (sums->slots[i].path)
-            *find_slot(&more, sums->slots[i].path) = sums->slots[i];
-    free(sums->slots);
+        if (sums->buckets[i].path)
+            *find_bucket(&more, sums->buckets[i].path) = sums->buckets[i];
+    free(sums->buckets);
     *sums = more;
     return 1;
 }
@@ -46,17 +46,17 @@ static int sum_file(const char **text, SourceSums *sums, const char *path, const
     RetexFileSum sum;
     if (!grow_sums(sums))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for checksums");
-    struct SourceSum *slot = find_slot(sums, path);
-    *text = slot->text;
-    if (slot->path)
+    struct SourceSum *bucket = find_bucket(sums, path);
+    *text = bucket->text;
+    if (bucket->path)
         return RETEX_OK;
     int code = retex_file_sum(&sum, path, access, err);
     if (code)
         return code;
-    slot->path = strdup(path);
-    if (!slot->path)
+    bucket->path = strdup(path);
+    if (!bucket->path)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for checksums");
-    snprintf(slot->text, sizeof slot->text, "%08" PRIx32 " %" PRIu64, sum.crc, sum.bytes);
+    snprintf(bucket->text, sizeof bucket->text, "%08" PRIx32 " %" PRIu64, sum.crc, sum.bytes);
     sums->count++;
     return RETEX_OK;
 }
@@ -156,7 +156,7 @@ int batch_sources_text(char **text, BatchSources *sources, const char *output, R
 void batch_sources_close(BatchSources *sources)
 {
     for (size_t i = 0; i < sources->sums.capacity; i++)
-        free(sources->sums.slots[i].path);
-    free(sources->sums.slots);
+        free(sources->sums.buckets[i].path);
+    free(sources->sums.buckets);
     sources->sums = (SourceSums){0};
 }

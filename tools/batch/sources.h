@@ -9,7 +9,7 @@ typedef struct SourceSums {
     struct SourceSum {
         char *path;
         char text[32]; /* "CRC32 BYTES" */
-    } * slots;         /* a hash table; its size is a power of two */
+    } * buckets;         /* a hash table; its size is a power of two */
     size_t count, capacity;
 } SourceSums;
 

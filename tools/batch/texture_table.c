@@ -34,13 +34,13 @@ void texture_table_mistake(TextureTable *table, int row, const char *fmt, ...)
     else
         table->rows[row].wrong = 1;
     table->nmistakes++;
-    if (table->kept == TABLE_MISTAKES_MAX)
+    if (table->nlisted == TABLE_MISTAKES_MAX)
         return;
     table->mistakes =
-        grow(table->cli, table->mistakes, (size_t)table->kept, &table->mistakes_capacity, sizeof *table->mistakes);
-    table->mistakes[table->kept] =
-        (TableMistake){row == TABLE_ITSELF ? 1 : table->rows[row].line, row, table->kept, strdup(message)};
-    table->kept++;
+        grow(table->cli, table->mistakes, (size_t)table->nlisted, &table->mistakes_capacity, sizeof *table->mistakes);
+    table->mistakes[table->nlisted] =
+        (TableMistake){row == TABLE_ITSELF ? 1 : table->rows[row].line, row, table->nlisted, strdup(message)};
+    table->nlisted++;
 }
 
 /* By line; mistakes of one line stay in the order in which they were found. */
@@ -58,10 +58,10 @@ int texture_table_concerns(const TableMistake *mistake, int first, int end)
 void texture_table_tell(TextureTable *table, const Cli *cli, int first, int end)
 {
     RetexError err = {0};
-    int told = 0, others = table->nmistakes - table->kept;
-    if (table->kept)
-        qsort(table->mistakes, (size_t)table->kept, sizeof *table->mistakes, compare_mistakes);
-    for (int i = 0; i < table->kept; i++) {
+    int told = 0, others = table->nmistakes - table->nlisted;
+    if (table->nlisted)
+        qsort(table->mistakes, (size_t)table->nlisted, sizeof *table->mistakes, compare_mistakes);
+    for (int i = 0; i < table->nlisted; i++) {
         const TableMistake *mistake = &table->mistakes[i];
         if (!texture_table_concerns(mistake, first, end))
             continue;
@@ -83,7 +83,7 @@ void texture_table_tell(TextureTable *table, const Cli *cli, int first, int end)
 const char *texture_table_why(const TextureTable *table, int row)
 {
     const int line = table->rows[row].line;
-    int low = 0, high = table->kept;
+    int low = 0, high = table->nlisted;
     while (low < high) { /* the first mistake of this line or a later one */
         const int middle = low + (high - low) / 2;
         if (table->mistakes[middle].line < line)
@@ -91,7 +91,7 @@ const char *texture_table_why(const TextureTable *table, int row)
         else
             high = middle;
     }
-    for (; low < table->kept && table->mistakes[low].line == line; low++)
+    for (; low < table->nlisted && table->mistakes[low].line == line; low++)
         if (table->mistakes[low].row == row && table->mistakes[low].message)
             return table->mistakes[low].message;
     return "wrong";
@@ -367,7 +367,7 @@ int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, Re
 
 void texture_table_close(TextureTable *table)
 {
-    for (int i = 0; i < table->kept; i++)
+    for (int i = 0; i < table->nlisted; i++)
         free(table->mistakes[i].message);
     free(table->mistakes);
     free(table->text);

@@ -46,7 +46,7 @@ typedef struct TextureTable {
     TableMistake *mistakes;                 /* sorted by texture_table_tell */
     size_t mistakes_capacity;
     int nmistakes; /* number of all mistakes */
-    int kept;      /* number of those in mistakes */
+    int nlisted;   /* number of those in mistakes */
     int wrong;     /* the table itself has a mistake */
 } TextureTable;
 

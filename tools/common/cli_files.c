@@ -27,7 +27,7 @@ typedef struct File {
 } File;
 
 static struct {
-    File *slots; /* a hash table with open addressing; a slot with path NULL is free */
+    File *buckets; /* a hash table with open addressing; a bucket with path NULL is free */
     size_t count, size;
     char *standard[2]; /* the uses of standard input and output, NULL = unused */
 } files;
@@ -124,11 +124,11 @@ static uint64_t hash_place(const Place *place)
     return hash ^ hash >> 32;
 }
 
-/* The slot of that place, or the free slot for it. */
-static File *find_slot(const Place *place)
+/* The bucket of that place, or the free bucket for it. */
+static File *find_bucket(const Place *place)
 {
     for (size_t k = hash_place(place) & (files.size - 1);; k = (k + 1) & (files.size - 1)) {
-        File *file = &files.slots[k];
+        File *file = &files.buckets[k];
         if (!file->path ||
             (file->inode == place->inode && file->device == place->device && strcmp(file->name, place->name) == 0))
             return file;
@@ -139,17 +139,17 @@ static int grow(void)
 {
     if (2 * (files.count + 1) <= files.size)
         return 1;
-    File *old = files.slots, *more = calloc(files.size ? 2 * files.size : 64, sizeof *more);
+    File *old = files.buckets, *more = calloc(files.size ? 2 * files.size : 64, sizeof *more);
     size_t count = files.size;
     if (!more)
         return 0;
-    files.slots = more;
+    files.buckets = more;
     files.size = count ? 2 * count : 64;
     for (size_t k = 0; k < count; k++)
         if (old[k].path) {
             Place place = {old[k].device, old[k].inode, ""};
             strcpy(place.name, old[k].name);
-            *find_slot(&place) = old[k];
+            *find_bucket(&place) = old[k];
         }
     free(old);
     return 1;
@@ -194,7 +194,7 @@ static int add_file(const char *what, const char *path, int written, RetexError 
         return code;
     if (!grow())
         return out_of_memory(err);
-    File *file = find_slot(&place);
+    File *file = find_bucket(&place);
     if (file->path)
         return written || file->written ? conflict(file, what, path, written, err) : RETEX_OK;
     *file = (File){place.device, place.inode, strdup(place.name), strdup(path), strdup(what), written};

@@ -227,13 +227,13 @@ typedef struct Pair {
 
 static double merge_cost(const Cluster *a, const Cluster *b, Rule rule, const int periodic[2])
 {
-    const double spread = b->uv.m2[0] + b->uv.m2[2], kept = a->varies + b->varies;
+    const double spread = b->uv.m2[0] + b->uv.m2[2], apart = a->varies + b->varies;
     if (rule == RULE_VARIATION)
-        return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, spread, periodic) - kept;
+        return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, spread, periodic) - apart;
     const double ward = retex_uv_stats_point_ward(&a->uv, b->uv.weight, b->uv.mean, periodic);
     if (rule == RULE_WARD)
         return ward / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
-    return light_error2(a->uv.weight + b->uv.weight, a->uv.m2[0] + a->uv.m2[2] + spread + ward) - kept;
+    return light_error2(a->uv.weight + b->uv.weight, a->uv.m2[0] + a->uv.m2[2] + spread + ward) - apart;
 }
 
 /* The cost of adding a hit to a cluster. */

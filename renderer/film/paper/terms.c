@@ -190,12 +190,12 @@ static int find_shared(TermTable *table, TermKey key)
 
 int terms_find(TermTable *table, TermCache *cache, TermKey key)
 {
-    unsigned slot = (unsigned)((key * 0x9e3779b97f4a7c15u) >> 56);
-    if (cache->terms[slot] && cache->keys[slot] == key)
-        return cache->terms[slot] - 1;
+    unsigned bucket = (unsigned)((key * 0x9e3779b97f4a7c15u) >> 56);
+    if (cache->terms[bucket] && cache->keys[bucket] == key)
+        return cache->terms[bucket] - 1;
     int term = find_shared(table, key);
     if (term >= 0)
-        cache->keys[slot] = key, cache->terms[slot] = term + 1;
+        cache->keys[bucket] = key, cache->terms[bucket] = term + 1;
     return term;
 }
 

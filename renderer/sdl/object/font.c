@@ -102,10 +102,10 @@ Font *font_open(Sdl *sdl, const char *name)
     font->path = path;
     if (!has_signature(bytes, size))
         sdl_error(sdl, "`%s` is no TrueType or OpenType font", path);
-    int status = FT_New_Memory_Face(files->library, (const FT_Byte *)bytes, (FT_Long)size, 0, &font->face);
-    if (status == FT_Err_Out_Of_Memory)
+    int code = FT_New_Memory_Face(files->library, (const FT_Byte *)bytes, (FT_Long)size, 0, &font->face);
+    if (code == FT_Err_Out_Of_Memory)
         sdl_alloc(sdl, SIZE_MAX / 2); /* tells of the limit */
-    if (status)
+    if (code)
         sdl_error(sdl, "the font `%s` is damaged", path);
     if (!FT_IS_SCALABLE(font->face) || font->face->units_per_EM == 0)
         sdl_error(sdl, "the font `%s` has no outlines", path);
@@ -273,11 +273,11 @@ const Letter *font_letter(Sdl *sdl, Font *font, unsigned index)
     if (font->letters[index])
         return font->letters[index];
     Letter *letter = sdl_alloc(sdl, sizeof *letter);
-    const int status = FT_Load_Glyph(font->face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP);
+    const int code = FT_Load_Glyph(font->face, index, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP);
     sdl_step(sdl, 10);
-    if (status == FT_Err_Out_Of_Memory)
+    if (code == FT_Err_Out_Of_Memory)
         sdl_alloc(sdl, SIZE_MAX / 2);
-    if (status || font->face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
+    if (code || font->face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
         sdl_error(sdl, "letter %u of the font `%s` is damaged", index, font->path);
     const double unit = font->face->units_per_EM;
     letter->advance = (double)font->face->glyph->metrics.horiAdvance / unit;

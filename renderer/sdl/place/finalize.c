@@ -238,7 +238,7 @@ static size_t hash_name(const char *name)
     return hash;
 }
 
-static size_t find_slot(const Names *names, const char *name)
+static size_t find_bucket(const Names *names, const char *name)
 {
     size_t i = hash_name(name) & (names->size - 1);
     while (names->table[i] && strcmp(names->table[i], name) != 0)
@@ -252,7 +252,7 @@ static void grow_table(Sdl *sdl, Names *names)
     names->size = names->size ? names->size * 2 : 256;
     names->table = sdl_alloc(sdl, names->size * sizeof *names->table);
     for (int i = 0; i < scene->nidents; i++)
-        names->table[find_slot(names, scene->idents[i])] = scene->idents[i];
+        names->table[find_bucket(names, scene->idents[i])] = scene->idents[i];
 }
 
 static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
@@ -261,11 +261,11 @@ static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
     for (; idents; idents = idents->next) {
         if ((size_t)scene->nidents * 2 >= names->size)
             grow_table(sdl, names);
-        size_t slot = find_slot(names, idents->name);
-        if (names->table[slot])
+        size_t bucket = find_bucket(names, idents->name);
+        if (names->table[bucket])
             continue;
         scene->idents = sdl_grow(sdl, scene->idents, scene->nidents, &names->capacity, sizeof *scene->idents);
-        names->table[slot] = scene->idents[scene->nidents++] = idents->name;
+        names->table[bucket] = scene->idents[scene->nidents++] = idents->name;
     }
 }
 

@@ -24,13 +24,13 @@ const ParsedTexture *texture_placed(Sdl *sdl, const ParsedTexture *texture, cons
 {
     if (!texture || transform_is_identity(by))
         return texture;
-    PlacedTexture *slot = &places_of(sdl)->placed[hash_placed(texture, by)];
-    if (slot->from != texture || memcmp(slot->by.m, by->m, sizeof by->m) != 0) {
-        slot->to = texture_moved(sdl, texture, by);
-        slot->from = texture;
-        slot->by = *by;
+    PlacedTexture *last = &places_of(sdl)->placed[hash_placed(texture, by)];
+    if (last->from != texture || memcmp(last->by.m, by->m, sizeof by->m) != 0) {
+        last->to = texture_moved(sdl, texture, by);
+        last->from = texture;
+        last->by = *by;
     }
-    return slot->to;
+    return last->to;
 }
 
 static const ParsedTexture *texture_in_world(Sdl *sdl, const MovedTexture *moved, const Transform *outer,

@@ -352,7 +352,7 @@ ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from)
     return parse_pigment_body(sdl, from, '}');
 }
 
-static ParsedPigment **plain_slot(TextureState *textures, const Rgbft *color)
+static ParsedPigment **plain_bucket(TextureState *textures, const Rgbft *color)
 {
     uint32_t words[sizeof *color / sizeof(uint32_t)], hash = 0;
     memcpy(words, color, sizeof words);
@@ -369,7 +369,8 @@ ParsedPigment *parse_shared_pigment(Sdl *sdl, const ParsedPigment *from)
     ParsedPigment *pigment = parse_pigment(sdl, from);
     if (pigment->pigment.kind != PIGMENT_COLOR || pigment->averaged || textures->pigments != pigment)
         return pigment;
-    ParsedPigment **slot = plain_slot(textures_of(sdl), &pigment->pigment.color), *known = *slot, *next = pigment->next;
+    ParsedPigment **bucket = plain_bucket(textures_of(sdl), &pigment->pigment.color);
+    ParsedPigment *known = *bucket, *next = pigment->next;
     if (known) { /* the same but for its place in the file and in the list */
         const int line = pigment->line;
         pigment->line = known->line, pigment->next = known->next;
@@ -381,7 +382,7 @@ ParsedPigment *parse_shared_pigment(Sdl *sdl, const ParsedPigment *from)
         }
         pigment->line = line, pigment->next = next;
     }
-    *slot = pigment;
+    *bucket = pigment;
     return pigment;
 }
 

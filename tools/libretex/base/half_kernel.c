@@ -30,8 +30,8 @@ static uint16_t half_from_float(float value)
     /* subnormal: units of 2^-24, rounded to even */
     const uint32_t mantissa = (bits & 0x7fffff) | 0x800000;
     const uint32_t shift = 126 - (bits >> 23); /* 14..24 */
-    const uint32_t kept = mantissa >> shift, rest = mantissa & ((1u << shift) - 1), tie = 1u << (shift - 1);
-    return (uint16_t)(sign | (kept + (rest > tie || (rest == tie && (kept & 1)))));
+    const uint32_t upper = mantissa >> shift, rest = mantissa & ((1u << shift) - 1), tie = 1u << (shift - 1);
+    return (uint16_t)(sign | (upper + (rest > tie || (rest == tie && (upper & 1)))));
 }
 
 static float half_to_float(uint16_t half)
@@ -82,8 +82,8 @@ RETEX_CPU_TARGET_AVX2 static void from_float_f16c(uint16_t *restrict dst, const 
         const __m256 over =
             _mm256_and_ps(_mm256_cmp_ps(size, largest, _CMP_GT_OQ), _mm256_cmp_ps(size, infinity, _CMP_LT_OQ));
         const __m256 clamped = _mm256_or_ps(largest, _mm256_andnot_ps(magnitude, value));
-        const __m256 kept = _mm256_blendv_ps(value, clamped, over);
-        _mm_storeu_si128((__m128i *)(dst + i), _mm256_cvtps_ph(kept, _MM_FROUND_TO_NEAREST_INT));
+        const __m256 in_range = _mm256_blendv_ps(value, clamped, over);
+        _mm_storeu_si128((__m128i *)(dst + i), _mm256_cvtps_ph(in_range, _MM_FROUND_TO_NEAREST_INT));
     }
     _mm256_zeroupper(); /* which the compiler leaves out before a last call */
     retex_half_from_float_scalar(dst + i, src + i, count - i);

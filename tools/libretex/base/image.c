@@ -49,11 +49,11 @@ void retex_image_free(RetexImage *im)
 
 int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err)
 {
-    const int status = retex_image_alloc(dst, src->width, src->height, src->channels, err);
+    const int code = retex_image_alloc(dst, src->width, src->height, src->channels, err);
 
-    if (!status)
+    if (!code)
         memcpy(dst->pixels, src->pixels, retex_image_index(src, 0, src->height) * sizeof(float));
-    return status;
+    return code;
 }
 
 static RetexRoi whole_roi(const RetexImage *im)
@@ -70,9 +70,9 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
                         RetexError *err)
 {
     if (!dst->pixels) {
-        const int status = retex_image_alloc(dst, width, height, channels, err);
-        if (status)
-            return status;
+        const int code = retex_image_alloc(dst, width, height, channels, err);
+        if (code)
+            return code;
     } else if (dst->width != width || dst->height != height || dst->channels != channels) {
         return retex_fail(err, RETEX_EINVAL,
                           "the destination has %d x %d pixels and %d channels where %d x %d and %d are needed",

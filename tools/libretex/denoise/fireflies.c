@@ -41,14 +41,14 @@ static float find_limit(const Brightness *b, int half, const float *kind, const 
     return FACTOR * largest[SUPPORT - 1];
 }
 
-void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const float *kind, const float *valid,
+void retex_denoise_lower_fireflies(float *half[2][3], float *stays[2], const float *kind, const float *valid,
                                    float unknown)
 {
     Brightness b;
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < DENOISE_PLANE; i++) {
             b.of[h][i] = half[h][0][i] + half[h][1][i] + half[h][2][i];
-            kept[h][i] = 1;
+            stays[h][i] = 1;
         }
     for (int h = 0; h < 2; h++)
         for (int y = 0; y < DENOISE_ROWS; y++)
@@ -56,12 +56,12 @@ void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const floa
                 const int p = y * DENOISE_PITCH + x;
                 const float limit = valid[p] > 0 ? find_limit(&b, h, kind, valid, x, y) : 0, other = b.of[!h][p];
                 if (limit > 0 && (limit > other || other < unknown * b.of[h][p])) {
-                    kept[h][p] = limit / b.of[h][p];
-                    kept[!h][p] = other > limit ? limit / other : 1;
+                    stays[h][p] = limit / b.of[h][p];
+                    stays[!h][p] = other > limit ? limit / other : 1;
                 }
             }
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < DENOISE_PLANE; i++)
-                half[h][c][i] *= kept[h][i];
+                half[h][c][i] *= stays[h][i];
 }

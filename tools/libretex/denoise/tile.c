@@ -27,7 +27,7 @@ struct RetexDenoiseScratch {
     float *memory;
     float *features; /* DENOISE_FEATURES_SCRATCH planes */
     float *spare;    /* a plane */
-    float *kept[2];  /* planes */
+    float *stays[2]; /* planes: what fireflies leave of each half */
     float *scratch, *errors[CHOICES];
     RetexDenoiseDisplacement *window; /* the nearest first */
     int nwindow;
@@ -101,7 +101,7 @@ static void plan_scratch(RetexDenoiseScratch *work, Layout *l, int nplanes)
     l->used = 0;
     work->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
     work->spare = take(l, DENOISE_PLANE);
-    work->kept[0] = take(l, DENOISE_PLANE), work->kept[1] = take(l, DENOISE_PLANE);
+    work->stays[0] = take(l, DENOISE_PLANE), work->stays[1] = take(l, DENOISE_PLANE);
     work->scratch = take(l, DENOISE_SCRATCH);
     for (int k = 0; k < CHOICES; k++)
         work->errors[k] = take(l, DENOISE_PIXELS);
@@ -268,9 +268,10 @@ static void split_halves(RetexTileSignal *r, RetexDenoiseScratch *work, const Re
 static void lower_fireflies(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const float *valid)
 {
     const float part = first_part(d);
-    retex_denoise_lower_fireflies(r->half, work->kept, r->kind, valid, has_rounded_noise(d) ? DENOISE_UNKNOWN_HALF : 0);
+    retex_denoise_lower_fireflies(r->half, work->stays, r->kind, valid,
+                                  has_rounded_noise(d) ? DENOISE_UNKNOWN_HALF : 0);
     for (int i = 0; i < DENOISE_PLANE; i++) {
-        const float first = work->kept[0][i], second = work->kept[1][i];
+        const float first = work->stays[0][i], second = work->stays[1][i];
         for (int c = 0; c < 3; c++)
             r->lost[c][i] = 0;
         for (int c = 0; c < 3 && (first < 1 || second < 1); c++) {

@@ -63,10 +63,10 @@ int retex_band_store_create(RetexBandStore **result, int width, int height, uint
     if (!store)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
     store->descriptor = retex_temporary_open(near, store->shown);
-    const int status = store->descriptor < 0 ? fail_system(store, errno, err) : retex_band_store_begin(store, err);
-    if (status)
+    const int code = store->descriptor < 0 ? fail_system(store, errno, err) : retex_band_store_begin(store, err);
+    if (code)
         retex_band_store_close(result);
-    return status;
+    return code;
 }
 
 int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path,
@@ -78,11 +78,11 @@ int retex_band_store_open(RetexBandStore **result, int width, int height, uint64
         return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
     snprintf(store->shown, sizeof store->shown, "%s", path);
     store->descriptor = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    int status = store->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
+    int code = store->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
                                        : retex_band_store_recover(store, err);
-    if (status)
+    if (code)
         retex_band_store_close(result);
-    return status;
+    return code;
 }
 
 void retex_band_store_set_plain(RetexBandStore *store)
@@ -209,10 +209,10 @@ static int add_image(RetexBandStore *store, RetexBandStoreImage *added, int *ima
         *image = there;
         return 0;
     }
-    const int status = retex_band_store_add_image(store, added, err);
-    if (!status)
+    const int code = retex_band_store_add_image(store, added, err);
+    if (!code)
         *image = store->nimages - 1;
-    return status;
+    return code;
 }
 
 int retex_band_store_add(RetexBandStore *store, const char *name, const char *letters, RetexPixelType type, int *image,
@@ -224,11 +224,11 @@ int retex_band_store_add(RetexBandStore *store, const char *name, const char *le
     if (!added)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
     pthread_mutex_lock(&store->lock);
-    const int status = add_image(store, added, image, err);
+    const int code = add_image(store, added, image, err);
     pthread_mutex_unlock(&store->lock);
-    if (status)
+    if (code)
         free(added);
-    return status;
+    return code;
 }
 
 const char *retex_band_store_image_name(const RetexBandStore *store, int image)
@@ -314,18 +314,18 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     const RetexChunkShape shape = retex_band_store_shape(store, image, band);
     const int nonzero = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
     RetexBandStoreScratch *scratch = acquire_scratch(store->pool);
-    int status = 0;
+    int code = 0;
 
     if (prepare(store, scratch, &shape)) {
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (nonzero || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
-            status = put_chunk(store, number, band, &shape, nonzero, scratch, err);
+            code = put_chunk(store, number, band, &shape, nonzero, scratch, err);
     } else {
-        status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
     release_scratch(store->pool, scratch);
-    return status;
+    return code;
 }
 
 int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStats *stats, RetexError *err)
@@ -333,13 +333,13 @@ int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStat
     RetexBandStoreRecord record = {.kind = BAND_STORE_COMMIT, .band = (uint32_t)band, .bytes = sizeof *stats};
 
     pthread_mutex_lock(&store->lock);
-    const int status = retex_band_store_append(store, &record, stats, NULL, err);
-    if (!status) {
+    const int code = retex_band_store_append(store, &record, stats, NULL, err);
+    if (!code) {
         store->stats[band] = *stats;
         store->committed[band] = 1;
     }
     pthread_mutex_unlock(&store->lock);
-    return status;
+    return code;
 }
 
 const RetexBandStats *retex_band_store_committed(const RetexBandStore *store, int band)
@@ -379,9 +379,9 @@ static int load_band(const RetexBandStore *store, const RetexBandStoreChunk *chu
 {
     if (!prepare(store, scratch, shape))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
-    const int status = retex_band_store_read(store, chunk, scratch->packed, err);
-    if (status)
-        return status;
+    const int code = retex_band_store_read(store, chunk, scratch->packed, err);
+    if (code)
+        return code;
     if (!retex_chunk_decompress(&scratch->chunk, shape, chunk->pxr24, scratch->packed, chunk->bytes,
                                 scratch->chunk.raw))
         return fail_damaged(store, err);
@@ -399,7 +399,7 @@ int retex_band_store_load_band(const RetexBandStore *store, int number, int band
         return 0;
     }
     RetexBandStoreScratch *scratch = acquire_scratch(store->pool);
-    const int status = load_band(store, &image->chunks[band], &shape, scratch, pixels, err);
+    const int code = load_band(store, &image->chunks[band], &shape, scratch, pixels, err);
     release_scratch(store->pool, scratch);
-    return status;
+    return code;
 }

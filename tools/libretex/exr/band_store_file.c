@@ -128,10 +128,10 @@ int retex_band_store_add_image(RetexBandStore *store, RetexBandStoreImage *image
         return retex_fail(err, RETEX_ELIMIT, "a band store has at most %d images", RETEX_SET_PARTS_MAX);
     memcpy(description.name, image->name, sizeof description.name);
     memcpy(description.letters, image->letters, sizeof description.letters);
-    const int status = retex_band_store_append(store, &record, &description, NULL, err);
-    if (!status)
+    const int code = retex_band_store_append(store, &record, &description, NULL, err);
+    if (!code)
         store->images[store->nimages++] = image;
-    return status;
+    return code;
 }
 
 static void index_chunk(RetexBandStore *store, const RetexBandStoreRecord *record, uint64_t offset)
@@ -152,14 +152,14 @@ int retex_band_store_append_chunk(RetexBandStore *store, RetexBandStoreRecord *r
     uint64_t offset;
 
     pthread_mutex_lock(&store->lock);
-    const int status = retex_band_store_append(store, record, bytes, &offset, err);
-    if (!status) {
+    const int code = retex_band_store_append(store, record, bytes, &offset, err);
+    if (!code) {
         index_chunk(store, record, offset);
         if (record->nonzero)
             store->images[record->image]->filled = 1;
     }
     pthread_mutex_unlock(&store->lock);
-    return status;
+    return code;
 }
 
 /* --- reading what another process left --- */
@@ -315,7 +315,7 @@ static int has_header_only(const RetexBandStore *store)
 int retex_band_store_recover(RetexBandStore *store, RetexError *err)
 {
     Header header;
-    int images, status;
+    int images, code;
 
     if (flock(store->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return retex_fail(err, RETEX_EIO, "%s is in use by another render", store->shown);
@@ -323,9 +323,9 @@ int retex_band_store_recover(RetexBandStore *store, RetexError *err)
         return retex_band_store_begin(store, err);
     if (!read_at(store->descriptor, &header, sizeof header, 0))
         memset(&header, 0, sizeof header);
-    status = check_header(store, &header, err);
-    if (status)
-        return status;
+    code = check_header(store, &header, err);
+    if (code)
+        return code;
     read_records(store, &header, &images);
     discard_uncommitted(store, images);
     if (ftruncate(store->descriptor, (off_t)store->end) != 0)

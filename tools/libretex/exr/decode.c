@@ -157,16 +157,16 @@ static int store_samples(const RetexExrPlan *plan, RetexImage *image, int top, c
         const void *planes[RETEX_EXR_LETTERS_MAX] = {NULL};
         for (int c = 0; c < plan->nchannels; c++) {
             const size_t plane = (size_t)width * retex_exr_channel_bytes(&plan->channels[c]);
-            const int slot = plan->slot[c];
-            if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->bad)) {
+            const int to = plan->image_channel[c];
+            if (to >= 0 && !are_allowed(plan, c, samples, width, &scratch->bad)) {
                 scratch->bad.x += x;
                 scratch->bad.y = y + line;
                 return 0;
             }
-            if (slot >= 0 && crc)
-                crc[slot] = retex_crc32(crc[slot], samples, plane);
-            if (slot >= 0 && image)
-                planes[slot] = plane_floats(scratch->rows + (size_t)width * (size_t)slot, samples,
+            if (to >= 0 && crc)
+                crc[to] = retex_crc32(crc[to], samples, plane);
+            if (to >= 0 && image)
+                planes[to] = plane_floats(scratch->rows + (size_t)width * (size_t)to, samples,
                                             (uint16_t)plan->channels[c].pixel_type, width);
             samples += plane;
         }
@@ -212,18 +212,18 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
     return retex_exr_alloc_failed() ? EXR_ERR_OUT_OF_MEMORY : code;
 }
 
-uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int slot, int y0, int y1,
+uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int to, int y0, int y1,
                               size_t *bytes)
 {
     size_t line = 0, total = 0;
     uint32_t crc = CRC32_OF_NONE;
 
     for (int c = 0; c < plan->nchannels; c++)
-        if (plan->slot[c] == slot)
+        if (plan->image_channel[c] == to)
             line = (size_t)plan->width * retex_exr_channel_bytes(&plan->channels[c]);
     for (int y = y0; y < y1; y += sums->lines) {
         const size_t count = line * (size_t)(y1 - y < sums->lines ? y1 - y : sums->lines);
-        crc = retex_crc32_join(crc, sums->crc[(y - sums->top) / sums->lines][slot], count);
+        crc = retex_crc32_join(crc, sums->crc[(y - sums->top) / sums->lines][to], count);
         total += count;
     }
     if (bytes)
@@ -249,17 +249,17 @@ static int plan_channels(RetexExr *exr, RetexExrPlan *plan, RetexError *err)
     exr_get_channels(exr->context, request->part, &channels);
     plan->nchannels = channels->num_channels;
     plan->channels = channels->entries;
-    plan->slot = calloc((size_t)(plan->nchannels ? plan->nchannels : 1), sizeof *plan->slot);
-    if (!plan->slot)
+    plan->image_channel = calloc((size_t)(plan->nchannels ? plan->nchannels : 1), sizeof *plan->image_channel);
+    if (!plan->image_channel)
         return retex_exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
-    for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
-        wanted += request->channels[slot][0] != 0;
+    for (int to = 0; to < RETEX_EXR_LETTERS_MAX; to++)
+        wanted += request->channels[to][0] != 0;
     for (int c = 0; c < plan->nchannels; c++) {
-        plan->slot[c] = -1;
+        plan->image_channel[c] = -1;
         plan->pixel_bytes += retex_exr_channel_bytes(&channels->entries[c]);
-        for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
-            if (request->channels[slot][0] && strcmp(channels->entries[c].name.str, request->channels[slot]) == 0) {
-                plan->slot[c] = slot;
+        for (int to = 0; to < RETEX_EXR_LETTERS_MAX; to++)
+            if (request->channels[to][0] && strcmp(channels->entries[c].name.str, request->channels[to]) == 0) {
+                plan->image_channel[c] = to;
                 found++;
             }
     }
@@ -306,6 +306,6 @@ int retex_exr_plan_open(RetexExr *exr, RetexExrPlan *plan, RetexExrRequest *requ
 
 void retex_exr_plan_close(RetexExrPlan *plan)
 {
-    free(plan->slot);
+    free(plan->image_channel);
     *plan = (RetexExrPlan){0};
 }

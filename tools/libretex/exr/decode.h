@@ -23,7 +23,7 @@ typedef struct RetexExrPlan {
     int across, down; /* number of chunks across and down */
     int nchannels;    /* channels of the part, all of which are in every chunk */
     const exr_attr_chlist_entry_t *channels;
-    int *slot; /* by channel of the part: the image's channel, or -1 */
+    int *image_channel; /* by channel of the part: the image's channel, or -1 */
     size_t pixel_bytes;
 } RetexExrPlan;
 
@@ -71,7 +71,7 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
                                   int top, const RetexExrSums *sums, RetexExrScratch *scratch);
 /* The checksum of lines y0 to y1 of one channel of the request; *bytes (may be NULL) receives how many bytes they
  * are. */
-uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int slot, int y0, int y1,
+uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int to, int y0, int y1,
                               size_t *bytes);
 void retex_exr_scratch_free(RetexExrScratch *scratch);
 

@@ -148,8 +148,8 @@ static void run_job(void *context, int index, int thread)
         read_chunks(work, job, &sums, thread);
     else
         atomic_store(&work->code, EXR_ERR_OUT_OF_MEMORY);
-    for (int slot = 0; sums.crc && slot < RETEX_EXR_LETTERS_MAX; slot++)
-        job->crc[slot] = retex_exr_sums_plane(plan, &sums, slot, top, top + lines, NULL);
+    for (int to = 0; sums.crc && to < RETEX_EXR_LETTERS_MAX; to++)
+        job->crc[to] = retex_exr_sums_plane(plan, &sums, to, top, top + lines, NULL);
     free(sums.crc);
 }
 
@@ -185,15 +185,15 @@ static void combine_crcs(const RetexJob *jobs, int njobs)
         uint32_t crc = CRC32_OF_NONE;
         for (end = first; end < njobs && jobs[end].plan == plan; end++)
             continue;
-        for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX && plan->request->with_crc; slot++)
+        for (int to = 0; to < RETEX_EXR_LETTERS_MAX && plan->request->with_crc; to++)
             for (int c = 0; c < plan->nchannels; c++) {
-                if (plan->slot[c] != slot)
+                if (plan->image_channel[c] != to)
                     continue;
                 for (int j = first; j < end; j++) {
                     const int y = jobs[j].first * plan->chunk_height, rest = plan->height - y;
                     const int lines = jobs[j].count * plan->chunk_height;
                     const size_t bytes = (size_t)plan->width * retex_exr_channel_bytes(&plan->channels[c]);
-                    crc = retex_crc32_join(crc, jobs[j].crc[slot], bytes * (size_t)(lines < rest ? lines : rest));
+                    crc = retex_crc32_join(crc, jobs[j].crc[to], bytes * (size_t)(lines < rest ? lines : rest));
                 }
             }
         plan->request->crc = crc;
@@ -246,19 +246,19 @@ static int run_jobs(RetexExr *exr, RetexExrPlan *plans, int nplans, int nthreads
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)
 {
     RetexExrPlan *plans;
-    int status = 0;
+    int code = 0;
 
     if (nrequests == 0)
         return 0;
     plans = calloc((size_t)nrequests, sizeof *plans);
     if (!plans)
         return retex_exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
-    for (int i = 0; i < nrequests && !status; i++)
-        status = retex_exr_plan_open(exr, &plans[i], &requests[i], err);
-    if (!status)
-        status = run_jobs(exr, plans, nrequests, nthreads, err);
+    for (int i = 0; i < nrequests && !code; i++)
+        code = retex_exr_plan_open(exr, &plans[i], &requests[i], err);
+    if (!code)
+        code = run_jobs(exr, plans, nrequests, nthreads, err);
     for (int i = 0; i < nrequests; i++)
         retex_exr_plan_close(&plans[i]);
     free(plans);
-    return status;
+    return code;
 }

@@ -331,17 +331,17 @@ static int copy_part(const Copy *copy, int part, exr_result_t *writing, RetexErr
     RetexExrRequest request = {.part = part};
     RetexExrPlan plan = {0};
     exr_result_t reading = EXR_ERR_SUCCESS;
-    int status = retex_exr_plan_open(copy->exr, &plan, &request, err);
+    int code = retex_exr_plan_open(copy->exr, &plan, &request, err);
 
-    if (!status && has_replacement(copy, part))
+    if (!code && has_replacement(copy, part))
         *writing = encode_part(copy, &plan, &reading);
     else
-        for (int k = 0; !status && k < plan.across * plan.down && !*writing && !reading; k++)
+        for (int k = 0; !code && k < plan.across * plan.down && !*writing && !reading; k++)
             *writing = copy_chunk(copy, &plan, k % plan.across, k / plan.across, &reading);
-    if (!status && reading)
-        status = retex_exr_fail(copy->exr, reading, err);
+    if (!code && reading)
+        code = retex_exr_fail(copy->exr, reading, err);
     retex_exr_plan_close(&plan);
-    return status;
+    return code;
 }
 
 int retex_exr_rewrite_check(RetexExr *exr, RetexError *err)

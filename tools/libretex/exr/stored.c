@@ -11,8 +11,8 @@ int retex_exr_stored_find(RetexExrStored *stored, RetexExr *exr, const RetexExrP
         !plan->request->bands)
         return 0;
     for (int c = 0; c < plan->nchannels; c++)
-        if (plan->slot[c] < 0 || plan->channels[c].pixel_type != stored_type || plan->channels[c].x_sampling != 1 ||
-            plan->channels[c].y_sampling != 1)
+        if (plan->image_channel[c] < 0 || plan->channels[c].pixel_type != stored_type ||
+            plan->channels[c].x_sampling != 1 || plan->channels[c].y_sampling != 1)
             return 0;
     *stored = (RetexExrStored){.exr = exr,
                                .part = plan->request->part,
@@ -43,10 +43,10 @@ int retex_exr_stored_chunk(const RetexExrStored *stored, int y, uint64_t *offset
 int retex_exr_stored_fail(const RetexExrStored *stored, RetexError *err)
 {
     const RetexInput *input = stored->exr->input;
-    const int status = retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated", retex_input_name(input),
+    const int code = retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated", retex_input_name(input),
                                   retex_exr_part_name(stored->exr, stored->part));
 
-    return retex_input_check(input, status, err);
+    return retex_input_check(input, code, err);
 }
 
 int retex_exr_stored_read(const RetexExrStored *stored, uint64_t offset, size_t bytes, unsigned char *to,

@@ -304,27 +304,27 @@ static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, i
     memcpy(encoding->parts, parts, (size_t)nparts * sizeof *parts);
     encoding->nparts = nparts;
     encoding->compress = compress;
-    const int status = lay_out_bands(encoding, err);
-    if (status)
+    const int code = lay_out_bands(encoding, err);
+    if (code)
         retex_exr_encoding_free(&encoding);
     *result = encoding;
-    return status;
+    return code;
 }
 
 int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, RetexExrCompression compress,
                      int nthreads, RetexError *err)
 {
     RetexExrEncoding *encoding = NULL;
-    int status = check_parts(parts, nparts, 0, err);
+    int code = check_parts(parts, nparts, 0, err);
 
     *result = NULL;
-    if (!status)
-        status = open_encoding(&encoding, parts, nparts, compress, err);
-    if (!status)
-        status = encode_bands(encoding, nthreads, err);
-    if (status) {
+    if (!code)
+        code = open_encoding(&encoding, parts, nparts, compress, err);
+    if (!code)
+        code = encode_bands(encoding, nthreads, err);
+    if (code) {
         retex_exr_encoding_free(&encoding);
-        return status;
+        return code;
     }
     for (int i = 0, band = 0; i < nparts; i++) {
         parts[i].crc = part_crc(encoding, i, &encoding->bands[band]);
@@ -337,10 +337,10 @@ int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts,
 
 int retex_exr_encoding_open(RetexExrEncoding **result, const RetexExrPart *part, int compress, RetexError *err)
 {
-    const int status = check_parts(part, 1, 1, err);
+    const int code = check_parts(part, 1, 1, err);
 
     *result = NULL;
-    return status ? status : open_encoding(result, part, 1, compress, err);
+    return code ? code : open_encoding(result, part, 1, compress, err);
 }
 
 int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const float *rows, RetexError *err)

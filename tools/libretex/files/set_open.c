@@ -21,18 +21,18 @@ static int read_file(const char *path, const RetexAccess *access, RetexSet **set
         *samples = NULL;
     if (!set && !samples)
         return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
-    int status = retex_input_open_allowed(&input, path, access, err);
-    const uint64_t bytes = status ? 0 : retex_input_size(input);
-    if (!status)
-        status = retex_set_format_of(input)->open(&input, set, samples, open, nthreads, err);
-    if (!status && !open && set && *set && (*set)->source)
-        status = retex_set_load(*set, nthreads, err);
+    int code = retex_input_open_allowed(&input, path, access, err);
+    const uint64_t bytes = code ? 0 : retex_input_size(input);
+    if (!code)
+        code = retex_set_format_of(input)->open(&input, set, samples, open, nthreads, err);
+    if (!code && !open && set && *set && (*set)->source)
+        code = retex_set_load(*set, nthreads, err);
     if (set && *set)
         (*set)->file_bytes = bytes;
-    if (status && set)
+    if (code && set)
         retex_set_close(set);
     retex_input_close(&input);
-    return status;
+    return code;
 }
 
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
@@ -57,9 +57,9 @@ int retex_samples_open_set(RetexSet **set, const RetexSamples *samples, const Re
     /* opening a pipe would wait for its writer */
     if (!access && stat(refers->path, &info) == 0 && !S_ISREG(info.st_mode))
         return retex_fail(err, RETEX_EINVAL, "%s, the set that the samples name, is no regular file", refers->path);
-    const int status = read_file(refers->path, access, set, NULL, 1, nthreads, err);
-    if (status || ((*set)->file_bytes == refers->bytes && (*set)->file_sum == refers->crc))
-        return status;
+    const int code = read_file(refers->path, access, set, NULL, 1, nthreads, err);
+    if (code || ((*set)->file_bytes == refers->bytes && (*set)->file_sum == refers->crc))
+        return code;
     retex_set_close(set);
     return retex_fail(err, RETEX_EFORMAT, "%s is not the set that the samples were made for: it has changed",
                       refers->path);
@@ -70,22 +70,22 @@ int retex_set_open_size(const char *path, int width, int height, RetexSet **set,
     *set = NULL;
     if (width < 1 || height < 1)
         return retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is none", width, height);
-    int status = retex_set_open(path, set, NULL, nthreads, err);
+    int code = retex_set_open(path, set, NULL, nthreads, err);
     RetexCut own;
-    const int level = status ? -1
+    const int level = code ? -1
                              : retex_set_find_level(*set,
                                                     &(RetexCut){0, 0, (*set)->width, (*set)->height, width, height},
                                                     &own);
-    return level < 0 ? status : retex_set_take_level(set, level, err);
+    return level < 0 ? code : retex_set_take_level(set, level, err);
 }
 
 int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
-    int status = retex_input_open(&input, path, err);
+    int code = retex_input_open(&input, path, err);
 
-    if (!status)
-        status = retex_set_format_of(input)->check(&input, nthreads, err);
+    if (!code)
+        code = retex_set_format_of(input)->check(&input, nthreads, err);
     retex_input_close(&input);
-    return status;
+    return code;
 }

@@ -84,10 +84,10 @@ static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
                 return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", input->name);
             input->data = data;
         }
-        const int status = read_some(input, input->data + input->size, capacity - input->size, &got, err);
-        if (status || got == 0) {
+        const int code = read_some(input, input->data + input->size, capacity - input->size, &got, err);
+        if (code || got == 0) {
             *ended = 1;
-            return status;
+            return code;
         }
     }
     return 0;
@@ -112,43 +112,43 @@ static int append_to_file(RetexInput *input, int file, RetexTemporaryName shown,
 static int set_in_file(RetexInput *input, int file, RetexTemporaryName shown, RetexError *err)
 {
     size_t got = (size_t)input->size;
-    int status;
+    int code;
 
     input->size = 0;
     do {
-        status = append_to_file(input, file, shown, got, err);
-        if (!status)
-            status = read_some(input, input->data, COPY_INITIAL, &got, err);
-        if (!status && input->size + got > SIZE_LIMIT)
-            status = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
-    } while (!status && got);
+        code = append_to_file(input, file, shown, got, err);
+        if (!code)
+            code = read_some(input, input->data, COPY_INITIAL, &got, err);
+        if (!code && input->size + got > SIZE_LIMIT)
+            code = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
+    } while (!code && got);
     free(input->data);
     input->data = NULL;
-    return status;
+    return code;
 }
 
 static int store(RetexInput *input, RetexError *err)
 {
     RetexTemporaryName shown;
-    int ended, status = set_in_memory(input, &ended, err);
+    int ended, code = set_in_memory(input, &ended, err);
 
-    if (status || ended)
-        return status;
+    if (code || ended)
+        return code;
     const int file = retex_temporary_open(NULL, shown);
     if (file < 0)
         return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(errno));
-    status = set_in_file(input, file, shown, err);
+    code = set_in_file(input, file, shown, err);
     if (!input->borrowed)
         close(input->descriptor);
     input->descriptor = file;
     input->borrowed = 0;
-    return status;
+    return code;
 }
 
 static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *given, RetexError *err)
 {
     RetexAccess access = RETEX_ACCESS_INIT;
-    struct stat status;
+    struct stat info;
 
     if (strcmp(path, "-") == 0) {
         input->descriptor = STDIN_FILENO;
@@ -162,17 +162,17 @@ static int open_descriptor(RetexInput *input, const char *path, const RetexAcces
         if (code)
             return code;
     }
-    if (fstat(input->descriptor, &status) != 0)
+    if (fstat(input->descriptor, &info) != 0)
         return fail_read(input, errno, err);
-    if (S_ISDIR(status.st_mode))
+    if (S_ISDIR(info.st_mode))
         return fail_read(input, EISDIR, err);
     /* devices may give bytes without end or make the reader wait; /dev/null is an empty file */
-    if (S_ISBLK(status.st_mode) ||
-        (S_ISCHR(status.st_mode) && status.st_rdev != makedev(1, 3) && !isatty(input->descriptor)))
+    if (S_ISBLK(info.st_mode) ||
+        (S_ISCHR(info.st_mode) && info.st_rdev != makedev(1, 3) && !isatty(input->descriptor)))
         return retex_fail(err, RETEX_EIO, "cannot read %s: it is a device", input->name);
     /* standard input may be a file whose beginning somebody has read: then only the rest is the input */
-    if (S_ISREG(status.st_mode) && lseek(input->descriptor, 0, SEEK_CUR) == 0) {
-        input->size = (uint64_t)status.st_size;
+    if (S_ISREG(info.st_mode) && lseek(input->descriptor, 0, SEEK_CUR) == 0) {
+        input->size = (uint64_t)info.st_size;
         return 0;
     }
     return store(input, err);
@@ -192,16 +192,16 @@ int retex_input_open_allowed(RetexInput **result, const char *path, const RetexA
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     input->descriptor = -1;
     snprintf(input->name, sizeof input->name, "%s", strcmp(path, "-") == 0 ? "standard input" : path);
-    const int status = open_descriptor(input, path, access, err);
-    if (status)
+    const int code = open_descriptor(input, path, access, err);
+    if (code)
         retex_input_close(&input);
     *result = input;
-    return status;
+    return code;
 }
 
 int retex_input_open_descriptor(RetexInput **result, int descriptor, const char *name, RetexError *err)
 {
-    struct stat status;
+    struct stat info;
     RetexInput *input = *result = calloc(1, sizeof *input);
 
     if (!input)
@@ -209,8 +209,8 @@ int retex_input_open_descriptor(RetexInput **result, int descriptor, const char 
     input->descriptor = descriptor;
     input->borrowed = 1;
     snprintf(input->name, sizeof input->name, "%s", name);
-    if (fstat(descriptor, &status) == 0) {
-        input->size = (uint64_t)status.st_size;
+    if (fstat(descriptor, &info) == 0) {
+        input->size = (uint64_t)info.st_size;
         return 0;
     }
     const int code = fail_read(input, errno, err);
@@ -307,13 +307,13 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
     return (int64_t)done;
 }
 
-int retex_input_check(const RetexInput *input, int status, RetexError *err)
+int retex_input_check(const RetexInput *input, int code, RetexError *err)
 {
     while (input && input->whole)
         input = input->whole;
     const int failed = input ? atomic_load(&input->failed) : 0;
 
-    return failed && (status == RETEX_OK || status == RETEX_EFORMAT) ? fail_read(input, failed, err) : status;
+    return failed && (code == RETEX_OK || code == RETEX_EFORMAT) ? fail_read(input, failed, err) : code;
 }
 
 int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err)

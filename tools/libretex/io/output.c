@@ -93,17 +93,17 @@ static int names_a_descriptor(const char *path)
 /* Finds out what path is: sets direct, path and folder, and *mode to the old file's permissions or -1. */
 static int resolve(RetexOutput *output, const char *path, int *mode, RetexError *err)
 {
-    struct stat status;
+    struct stat info;
 
     *mode = -1;
     if (strlen(path) >= sizeof output->path || !path[0])
         return fail_system(output, path[0] ? ENAMETOOLONG : ENOENT, err);
     strcpy(output->path, path);
-    if (stat(path, &status) == 0) {
-        if (S_ISDIR(status.st_mode))
+    if (stat(path, &info) == 0) {
+        if (S_ISDIR(info.st_mode))
             return fail_system(output, EISDIR, err);
-        output->direct = !S_ISREG(status.st_mode) || names_a_descriptor(path);
-        *mode = status.st_mode & 0777;
+        output->direct = !S_ISREG(info.st_mode) || names_a_descriptor(path);
+        *mode = info.st_mode & 0777;
         if (!output->direct && !realpath(path, output->path))
             return fail_system(output, errno, err);
         /* a file without write permission is not replaced either, though the folder's permissions would allow it */
@@ -158,7 +158,7 @@ static int open_file(RetexOutput *output, const char *path, RetexError *err)
 int retex_output_open(RetexOutput **result, const char *path, RetexError *err)
 {
     RetexOutput *output = output_new(path, err);
-    int status = 0;
+    int code = 0;
 
     *result = NULL;
     if (!output)
@@ -167,12 +167,12 @@ int retex_output_open(RetexOutput **result, const char *path, RetexError *err)
         output->descriptor = STDOUT_FILENO;
         output->direct = output->borrowed = 1;
     } else {
-        status = open_file(output, path, err);
+        code = open_file(output, path, err);
     }
-    if (status)
+    if (code)
         retex_output_abandon(&output);
     *result = output;
-    return status;
+    return code;
 }
 
 int retex_output_open_memory(RetexOutput **result, RetexError *err)
@@ -191,18 +191,18 @@ int retex_output_open_memory(RetexOutput **result, RetexError *err)
 int retex_output_check(const char *path, RetexError *err)
 {
     RetexOutput *output = NULL;
-    int mode, status = 0;
+    int mode, code = 0;
 
     if (strcmp(path, "-") == 0)
         return 0;
     output = output_new(path, err);
     if (!output)
         return RETEX_ENOMEM;
-    status = resolve(output, path, &mode, err);
-    if (!status && access(output->direct ? path : output->folder[0] ? output->folder : ".", W_OK) != 0)
-        status = fail_system(output, errno, err);
+    code = resolve(output, path, &mode, err);
+    if (!code && access(output->direct ? path : output->folder[0] ? output->folder : ".", W_OK) != 0)
+        code = fail_system(output, errno, err);
     retex_output_abandon(&output);
-    return status;
+    return code;
 }
 
 static int write_all(RetexOutput *output, const unsigned char *data, size_t bytes, RetexError *err)
@@ -235,9 +235,9 @@ int retex_output_write(RetexOutput *output, const void *data, size_t bytes, Rete
     if (!bytes) /* data may be NULL */
         return 0;
     if (output->buffered + bytes > BUFFER_BYTES) {
-        const int status = flush(output, err);
-        if (status)
-            return status;
+        const int code = flush(output, err);
+        if (code)
+            return code;
     }
     if (bytes >= BUFFER_BYTES)
         return write_all(output, data, bytes, err);
@@ -257,10 +257,10 @@ int retex_output_is_file(const char *path)
 int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err)
 {
     const unsigned char *from = data;
-    const int status = flush(output, err);
+    const int code = flush(output, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (output->memory) {
         if (fflush(output->memory) != 0 || at > output->bytes || bytes > output->bytes - at)
             return fail_system(output, ENOMEM, err);
@@ -342,26 +342,26 @@ static int finish(RetexOutput *output, RetexError *err)
 
 int retex_output_commit(RetexOutput **output, RetexError *err)
 {
-    const int status = finish(*output, err);
+    const int code = finish(*output, err);
 
     retex_output_abandon(output); /* frees the output; removes a file that is not at its path */
-    return status;
+    return code;
 }
 
 int retex_output_take(RetexOutput **result, void **data, size_t *bytes, RetexError *err)
 {
     RetexOutput *output = *result;
-    int status = flush(output, err);
+    int code = flush(output, err);
 
-    if (fclose(output->memory) != 0 && !status)
-        status = fail_system(output, ENOMEM, err);
+    if (fclose(output->memory) != 0 && !code)
+        code = fail_system(output, ENOMEM, err);
     output->memory = NULL; /* fclose has set data */
-    *data = status ? NULL : output->data;
-    *bytes = status ? 0 : output->bytes;
-    if (!status)
+    *data = code ? NULL : output->data;
+    *bytes = code ? 0 : output->bytes;
+    if (!code)
         output->data = NULL;
     retex_output_abandon(result);
-    return status;
+    return code;
 }
 
 void retex_output_abandon(RetexOutput **result)
@@ -389,13 +389,13 @@ void retex_output_abandon(RetexOutput **result)
 int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err)
 {
     RetexOutput *output = NULL;
-    int status = retex_output_open(&output, path, err);
+    int code = retex_output_open(&output, path, err);
 
-    if (status)
-        return status;
-    status = retex_output_write(output, data, bytes, err);
-    if (!status)
+    if (code)
+        return code;
+    code = retex_output_write(output, data, bytes, err);
+    if (!code)
         return retex_output_commit(&output, err);
     retex_output_abandon(&output);
-    return status;
+    return code;
 }

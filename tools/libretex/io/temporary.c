@@ -33,16 +33,16 @@ static int open_in(const char *folder, RetexTemporaryName shown)
  * pipe. */
 static void folder_of(const char *near, char folder[PATH_MAX])
 {
-    struct stat status;
+    struct stat info;
     char path[PATH_MAX];
 
     folder[0] = 0;
     if (!near || strcmp(near, "-") == 0 || strlen(near) >= PATH_MAX ||
-        (stat(near, &status) == 0 && !S_ISREG(status.st_mode)) || strncmp(near, "/dev/", 5) == 0 ||
+        (stat(near, &info) == 0 && !S_ISREG(info.st_mode)) || strncmp(near, "/dev/", 5) == 0 ||
         strncmp(near, "/proc/", 6) == 0)
         return;
     snprintf(path, sizeof path, "%s", near);
-    if (stat(near, &status) == 0 && !realpath(near, path)) /* the target of a symbolic link may be in another folder */
+    if (stat(near, &info) == 0 && !realpath(near, path)) /* the target of a symbolic link may be in another folder */
         return;
     char *slash = strrchr(path, '/');
     if (slash)

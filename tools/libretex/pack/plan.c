@@ -1,4 +1,4 @@
-/* Chooses codecs and quantizers by a part's role in the set, its range of values and its noise. See plan.h. */
+/* Chooses codecs and quantizers by a part's use in the set, its range of values and its noise. See plan.h. */
 #include "pack/plan.h"
 
 #include <math.h>
@@ -46,17 +46,18 @@ RetexPackQuantizer retex_pack_quantizer(double psnr)
                                 .gain_noise = times > 2 ? 0 : GAIN_NOISE};
 }
 
-typedef enum Role {
-    ROLE_NONE,
-    ROLE_EXACT,
-    ROLE_LIGHT,
-    ROLE_ALBEDO,
-    ROLE_ORIGINAL,
-    ROLE_GAIN,
-    ROLE_MEAN,
-    ROLE_SPREAD,
-    ROLE_WEIGHT
-} Role;
+/* How a part may be coded: what is of one coding has the same codec and kind of quantizer. */
+typedef enum Coding {
+    CODING_NONE,
+    CODING_EXACT,
+    CODING_LIGHT,
+    CODING_ALBEDO,
+    CODING_ORIGINAL,
+    CODING_GAIN,
+    CODING_MEAN,
+    CODING_SPREAD,
+    CODING_WEIGHT
+} Coding;
 
 /* The range of a channel's samples. */
 typedef struct Range {
@@ -71,59 +72,61 @@ typedef struct Planning {
     RetexPackPart *packed;
     const RetexSet *set;
     const RetexPackQuantizer *quantizer;
-    Role *roles;
+    Coding *codings;
     int *means; /* by part of standard deviations: the part of their means */
     Range (*ranges)[RETEX_PACK_CHANNELS_MAX];
     double *noise;       /* by part of radiance, in levels; -1 if memory ran out */
     double *lamp_shares; /* by gain of a lamp: how much of the light of the lamp has it, about; else 0 */
 } Planning;
 
-/* --- roles --- */
+/* --- what is coded alike --- */
 
-/* A part that is used in two different roles is stored without loss, but light that is a weight, too. */
-static void give_role(Planning *plan, int part, Role role)
+/* A part that is used in two different ways is stored without loss, but light that is a weight, too. */
+static void give_coding(Planning *plan, int part, Coding coding)
 {
-    if (part >= 0 && !(plan->roles[part] == ROLE_LIGHT && role == ROLE_WEIGHT))
-        plan->roles[part] = plan->roles[part] == ROLE_NONE || plan->roles[part] == role ? role : ROLE_EXACT;
+    if (part < 0 || (plan->codings[part] == CODING_LIGHT && coding == CODING_WEIGHT))
+        return;
+    const int is_free = plan->codings[part] == CODING_NONE || plan->codings[part] == coding;
+    plan->codings[part] = is_free ? coding : CODING_EXACT;
 }
 
-static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
+static void give_footprint_codings(Planning *plan, const RetexFootprint *f)
 {
     const RetexSet *set = plan->set;
-    give_role(plan, f->albedo, ROLE_ALBEDO);
+    give_coding(plan, f->albedo, CODING_ALBEDO);
     if (f->uv < 0 || f->spread < 0) {
-        give_role(plan, f->uv, ROLE_EXACT);
-        give_role(plan, f->spread, ROLE_EXACT);
+        give_coding(plan, f->uv, CODING_EXACT);
+        give_coding(plan, f->spread, CODING_EXACT);
         return;
     }
     const RetexPart *uv = &set->parts[f->uv], *spread = &set->parts[f->spread];
-    const int apart = plan->roles[f->spread] != ROLE_NONE && plan->means[f->spread] != f->uv;
+    const int apart = plan->codings[f->spread] != CODING_NONE && plan->means[f->spread] != f->uv;
     const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= RETEX_AXES &&
                     uv->image.width == spread->image.width && uv->image.height == spread->image.height && !apart &&
-                    (plan->roles[f->uv] == ROLE_NONE || plan->means[f->spread] == f->uv);
-    give_role(plan, f->uv, fit ? ROLE_MEAN : ROLE_EXACT);
-    give_role(plan, f->spread, fit ? ROLE_SPREAD : ROLE_EXACT);
+                    (plan->codings[f->uv] == CODING_NONE || plan->means[f->spread] == f->uv);
+    give_coding(plan, f->uv, fit ? CODING_MEAN : CODING_EXACT);
+    give_coding(plan, f->spread, fit ? CODING_SPREAD : CODING_EXACT);
     plan->means[f->spread] = f->uv;
 }
 
-static void give_part_role(void *context, RetexPartUse use, int user, int *part)
+static void give_part_coding(void *context, RetexPartUse use, int user, int *part)
 {
-    static const Role of_use[] = {[RETEX_PART_RADIANCE] = ROLE_LIGHT,
-                                  [RETEX_PART_IMAGE] = ROLE_GAIN,
-                                  [RETEX_PART_ORIGINAL] = ROLE_ORIGINAL,
-                                  [RETEX_PART_WEIGHT] = ROLE_WEIGHT};
+    static const Coding of_use[] = {[RETEX_PART_RADIANCE] = CODING_LIGHT,
+                                    [RETEX_PART_IMAGE] = CODING_GAIN,
+                                    [RETEX_PART_ORIGINAL] = CODING_ORIGINAL,
+                                    [RETEX_PART_WEIGHT] = CODING_WEIGHT};
     (void)user;
     if (use != RETEX_PART_UV && use != RETEX_PART_SPREAD && use != RETEX_PART_ALBEDO)
-        give_role(context, *part, of_use[use]);
+        give_coding(context, *part, of_use[use]);
 }
 
-static void give_roles(Planning *plan)
+static void give_codings(Planning *plan)
 {
     const RetexSet *set = plan->set;
-    retex_set_visit_const_parts(set, give_part_role, plan);
+    retex_set_visit_const_parts(set, give_part_coding, plan);
     for (int i = 0; i < set->nfootprints; i++)
-        give_footprint_roles(plan, &set->footprints[i]);
-    give_role(plan, 0, ROLE_LIGHT);
+        give_footprint_codings(plan, &set->footprints[i]);
+    give_coding(plan, 0, CODING_LIGHT);
 }
 
 /* --- ranges and noise --- */
@@ -250,7 +253,7 @@ static void find_noise(void *context, int part, int thread)
     RetexImage levels = {0};
     (void)thread;
     plan->whites[part] = plan->white;
-    if (plan->roles[part] != ROLE_LIGHT || part == 0)
+    if (plan->codings[part] != CODING_LIGHT || part == 0)
         return;
     plan->whites[part] = white_of(plan, part);
     plan->noise[part] = -1;
@@ -420,8 +423,8 @@ static void plan_footprint(Planning *plan, const RetexFootprint *f, const RetexP
     RetexPackPart *p = &plan->packed[f->uv], *s = &plan->packed[f->spread];
     const Range *of_uv = plan->ranges[f->uv];
     const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
-    if (plan->roles[f->uv] != ROLE_MEAN || plan->roles[f->spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
-        of_uv[1].most_size >= farthest || !of_uv[2].positive || !spread_fits(plan, f))
+    if (plan->codings[f->uv] != CODING_MEAN || plan->codings[f->spread] != CODING_SPREAD ||
+        of_uv[0].most_size >= farthest || of_uv[1].most_size >= farthest || !of_uv[2].positive || !spread_fits(plan, f))
         return;
     p->present = s->present = f->uv;
     p->sigma = f->spread;
@@ -440,7 +443,7 @@ static int is_zero(const Planning *plan, int part)
     return zero;
 }
 
-/* Chooses codec and quantizer of a part by its role. Without losses all are planes, as are those of footprints, which
+/* Chooses codec and quantizer of a part by its use. Without losses all are planes, as are those of footprints, which
  * are planned together. */
 static void plan_part(Planning *plan, int part)
 {
@@ -452,26 +455,26 @@ static void plan_part(Planning *plan, int part)
         plan_light(plan, part, 1, quantizer->picture_step);
         return;
     }
-    switch (plan->roles[part]) {
-    case ROLE_LIGHT:
+    switch (plan->codings[part]) {
+    case CODING_LIGHT:
         plan_light(plan, part, plan->whites[part] / rendered_value(plan->set, part), light_step(plan, part));
         break;
-    case ROLE_ALBEDO:
+    case CODING_ALBEDO:
         plan_light(plan, part, plan->white, quantizer->jpeg_step);
         break;
-    case ROLE_ORIGINAL:
+    case CODING_ORIGINAL:
         plan_light(plan, part, 1, quantizer->original_step);
         break;
-    case ROLE_GAIN:
+    case CODING_GAIN:
         plan_gain(plan, part);
         break;
-    case ROLE_WEIGHT:
+    case CODING_WEIGHT:
         plan_weight(plan, part);
         break;
-    case ROLE_NONE:
-    case ROLE_EXACT:
-    case ROLE_MEAN:
-    case ROLE_SPREAD:
+    case CODING_NONE:
+    case CODING_EXACT:
+    case CODING_MEAN:
+    case CODING_SPREAD:
         break;
     }
 }
@@ -522,12 +525,12 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
                      packed,
                      set,
                      quantizer,
-                     calloc(count + 1, sizeof *plan.roles),
+                     calloc(count + 1, sizeof *plan.codings),
                      calloc(count + 1, sizeof *plan.means),
                      calloc(count + 1, sizeof *plan.ranges),
                      calloc(count + 1, sizeof *plan.noise),
                      calloc(count + 1, sizeof *plan.lamp_shares)};
-    int code = plan.roles && plan.means && plan.ranges && plan.noise && plan.whites && plan.lamp_shares
+    int code = plan.codings && plan.means && plan.ranges && plan.noise && plan.whites && plan.lamp_shares
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
     for (int i = 0; !code && i < set->nparts; i++) {
@@ -537,7 +540,7 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
                 retex_fail(err, RETEX_EUNSUPPORTED, "part '%s' has too many channels to be packed", set->parts[i].name);
     }
     if (!code) {
-        give_roles(&plan);
+        give_codings(&plan);
         retex_parallel(nthreads, set->nparts, find_ranges, &plan);
         if (plan.quantizer)
             retex_parallel(nthreads, set->nparts, find_noise, &plan);
@@ -550,7 +553,7 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
         plan_parts(&plan);
         retex_parallel(nthreads, set->nparts, find_palettes, &plan);
     }
-    free(plan.roles);
+    free(plan.codings);
     free(plan.means);
     free(plan.ranges);
     free(plan.noise);

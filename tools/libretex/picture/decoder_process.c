@@ -27,7 +27,7 @@ enum {
 
 extern char **environ;
 
-/* Resident memory of all decoders of this process, by slots. */
+/* Resident memory of all decoders of this process, by counters. */
 static _Atomic uint64_t resident[MOST_COUNTED];
 
 /* ---- memory ---- */
@@ -46,7 +46,7 @@ static uint64_t resident_bytes(pid_t pid)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-static int take_slot(void)
+static int take_counter(void)
 {
     for (int i = 0; i < MOST_COUNTED; i++) {
         uint64_t unused = 0;
@@ -66,9 +66,9 @@ int retex_decoder_check_memory(const RetexDecoderProcess *decoder, uint64_t more
 {
     const uint64_t own = resident_bytes(decoder->pid), most = decoder->order->memory;
     uint64_t sum = more, largest = 0;
-    if (decoder->slot < 0 || !most)
+    if (decoder->counter < 0 || !most)
         return RETEX_OK;
-    atomic_store(&resident[decoder->slot], own | !own);
+    atomic_store(&resident[decoder->counter], own | !own);
     for (int i = 0; i < MOST_COUNTED; i++) {
         const uint64_t bytes = atomic_load(&resident[i]);
         sum += bytes;
@@ -156,7 +156,7 @@ int retex_decoder_start(RetexDecoderProcess *decoder, const RetexDecoderOrder *o
     int orders[2] = {-1, -1}, replies[2] = {-1, -1}, code = 0;
     _Static_assert(sizeof *order <= 4096, "fits into any pipe");
     *decoder = (RetexDecoderProcess){
-        .order = order, .budget = budget, .from = -1, .slot = -1, .until = retex_clock_seconds() + seconds};
+        .order = order, .budget = budget, .from = -1, .counter = -1, .until = retex_clock_seconds() + seconds};
     if (!find_program(program)) {
         close_file(picture);
         return fail_start(order->path, "there is no program retex-decode", err);
@@ -176,7 +176,7 @@ int retex_decoder_start(RetexDecoderProcess *decoder, const RetexDecoderOrder *o
     }
     decoder->from = replies[0];
     fcntl(decoder->from, F_SETPIPE_SZ, PIPE_BYTES); /* only faster */
-    decoder->slot = take_slot();
+    decoder->counter = take_counter();
     return RETEX_OK;
 }
 
@@ -207,8 +207,8 @@ void retex_decoder_stop(RetexDecoderProcess *decoder)
             ;
     }
     close_file(decoder->from);
-    if (decoder->slot >= 0)
-        atomic_store(&resident[decoder->slot], 0);
+    if (decoder->counter >= 0)
+        atomic_store(&resident[decoder->counter], 0);
 }
 
 static int fail_late(const RetexDecoderProcess *decoder, RetexError *err)
@@ -219,7 +219,7 @@ static int fail_late(const RetexDecoderProcess *decoder, RetexError *err)
 /* It ended before it had said all. */
 static int explain_end(RetexDecoderProcess *decoder, RetexError *err)
 {
-    const int status = end(decoder), number = status >= 0 && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    const int code = end(decoder), number = code >= 0 && WIFSIGNALED(code) ? WTERMSIG(code) : 0;
     const char *path = decoder->order->path;
     if (number == SIGXCPU)
         return fail_late(decoder, err);

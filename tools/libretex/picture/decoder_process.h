@@ -15,7 +15,7 @@ typedef struct RetexDecoderProcess {
     pid_t pid;
     int from;     /* its output */
     double until; /* of the clock */
-    int slot;     /* where its memory is counted; below 0 = nowhere */
+    int counter;  /* where its memory is counted; below 0 = nowhere */
 } RetexDecoderProcess;
 
 /* Start one, which may take so many seconds by the clock. picture: a descriptor, or below 0 with errno set; it is

@@ -149,22 +149,22 @@ static int exr_strip(RetexPicture *picture, int strip, const float *rows, RetexE
     unsigned char *encoded = NULL;
     size_t bytes = 0;
 
-    int status = picture->bridged ? retex_picture_plan(picture, err) : 0;
-    if (!status && strip == 0)
-        status = make_header(picture, err);
-    if (!status)
-        status = convert(picture, &converted, rows, lines, err);
-    if (status) {
+    int code = picture->bridged ? retex_picture_plan(picture, err) : 0;
+    if (!code && strip == 0)
+        code = make_header(picture, err);
+    if (!code)
+        code = convert(picture, &converted, rows, lines, err);
+    if (code) {
         free(converted);
-        return status;
+        return code;
     }
     rows = converted ? converted : rows;
     if (state->encoding)
-        status = retex_exr_encode_rows(state->encoding, y0, y0 + lines, rows, err);
+        code = retex_exr_encode_rows(state->encoding, y0, y0 + lines, rows, err);
     else if (!(encoded = encode_strip(state, y0, y0 + lines, rows, &bytes)))
-        status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(converted);
-    return status ? status : retex_picture_submit_strip(picture, strip, encoded, bytes, err);
+    return code ? code : retex_picture_submit_strip(picture, strip, encoded, bytes, err);
 }
 
 /* Writes the table of chunk offsets. */
@@ -178,9 +178,9 @@ static int write_table(RetexPicture *picture, const ExrState *state, RetexError 
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     for (int i = 0; i < state->nchunks; at += state->chunks[i++])
         put_little(table + ENTRY * (size_t)i, at, ENTRY);
-    const int status = retex_output_patch(picture->output, state->header_bytes, table, bytes, err);
+    const int code = retex_output_patch(picture->output, state->header_bytes, table, bytes, err);
     free(table);
-    return status;
+    return code;
 }
 
 static int exr_finish(RetexPicture *picture, RetexError *err)

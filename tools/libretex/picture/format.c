@@ -27,26 +27,26 @@ int retex_picture_strip_lines(const RetexPicture *picture, int strip)
 
 int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, RetexError *err)
 {
-    int status = picture->output ? 0 : retex_output_open(&picture->output, picture->path, err);
+    int code = picture->output ? 0 : retex_output_open(&picture->output, picture->path, err);
 
-    return status ? status : retex_output_write(picture->output, data, bytes, err);
+    return code ? code : retex_output_write(picture->output, data, bytes, err);
 }
 
 int retex_picture_submit_strip(RetexPicture *picture, int strip, unsigned char *data, size_t bytes, RetexError *err)
 {
-    int status = 0;
+    int code = 0;
 
     pthread_mutex_lock(&picture->lock);
     picture->strips[strip] = (RetexEncodedStrip){data, bytes, RETEX_STRIP_ENCODED};
-    while (!status && picture->next < picture->nstrips && picture->strips[picture->next].state == RETEX_STRIP_ENCODED) {
+    while (!code && picture->next < picture->nstrips && picture->strips[picture->next].state == RETEX_STRIP_ENCODED) {
         RetexEncodedStrip *encoded = &picture->strips[picture->next++];
         if (encoded->data)
-            status = retex_picture_append(picture, encoded->data, encoded->bytes, err);
+            code = retex_picture_append(picture, encoded->data, encoded->bytes, err);
         free(encoded->data);
         encoded->data = NULL;
     }
     pthread_mutex_unlock(&picture->lock);
-    return status;
+    return code;
 }
 
 /* --- colours --- */
@@ -82,10 +82,10 @@ static int convert_alpha(RetexPicture *picture, void *codes, int bits, int chann
 {
     float *colors = malloc(pixels * 3 * sizeof *colors);
     void *color_codes = channels == 3 ? codes : malloc(pixels * 3 * (size_t)bits / 8);
-    const int status =
+    const int code =
         colors && color_codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
-    if (!status) {
+    if (!code) {
         for (size_t i = 0; i < pixels; i++)
             for (size_t c = 0; c < 3; c++)
                 colors[3 * i + c] = channels == 3 ? rows[4 * i + c] * rows[4 * i + 3] : rows[4 * i + c];
@@ -97,7 +97,7 @@ static int convert_alpha(RetexPicture *picture, void *codes, int bits, int chann
     free(colors);
     if (color_codes != codes)
         free(color_codes);
-    return status;
+    return code;
 }
 
 /* Converts rows by a view that is more than the display's curve. */
@@ -122,9 +122,9 @@ int retex_picture_codes(RetexPicture *picture, void *codes, int bits, int channe
     const size_t pixels = (size_t)picture->width * (size_t)nrows;
 
     if (picture->bridged) {
-        const int status = retex_picture_plan(picture, err);
-        if (status)
-            return status;
+        const int code = retex_picture_plan(picture, err);
+        if (code)
+            return code;
         if (!picture->stored.is_srgb)
             return retex_bridge_convert(picture->plan, rows, (long)pixels, codes, err);
     }

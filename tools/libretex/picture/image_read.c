@@ -138,18 +138,18 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const Rete
     if (!choose_channels(exr, &request, &grey))
         return retex_fail(err, RETEX_EUNSUPPORTED, "%s has no channels R, G, B or Y", name);
     retex_exr_part_size(exr, 0, &width, &height);
-    int status = check_pixels(width, height, file, name, err);
-    if (!status && (uint64_t)width * (uint64_t)height * 16 > RETEX_EXR_MEMORY_MAX)
-        status = retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels", name, width, height);
-    if (!status)
-        status = retex_image_alloc(&image, width, height, 4, err);
-    if (!status) {
+    int code = check_pixels(width, height, file, name, err);
+    if (!code && (uint64_t)width * (uint64_t)height * 16 > RETEX_EXR_MEMORY_MAX)
+        code = retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels", name, width, height);
+    if (!code)
+        code = retex_image_alloc(&image, width, height, 4, err);
+    if (!code) {
         request.image = &image;
-        status = retex_exr_read(exr, &request, 1, file->nthreads, err);
+        code = retex_exr_read(exr, &request, 1, file->nthreads, err);
     }
-    if (status) {
+    if (code) {
         retex_image_free(&image);
-        return status;
+        return code;
     }
     finish_pixels(&image, grey, request.channels[3][0] != 0);
     *dst = image;
@@ -165,12 +165,12 @@ typedef struct Reading {
 static int copy_params(Reading *reading, const RetexReadParams *given, RetexError *err)
 {
     *reading = (Reading){RETEX_READ_INIT, RETEX_ACCESS_INIT};
-    int status = RETEX_PARAMS_COPY(&reading->params, given, err);
-    if (!status && reading->params.access) {
-        status = RETEX_PARAMS_COPY(&reading->access, reading->params.access, err);
+    int code = RETEX_PARAMS_COPY(&reading->params, given, err);
+    if (!code && reading->params.access) {
+        code = RETEX_PARAMS_COPY(&reading->access, reading->params.access, err);
         reading->params.access = &reading->access;
     }
-    return status;
+    return code;
 }
 
 /* Chooses the bridge's decoder: any, or for safe access that of the content. */
@@ -206,15 +206,15 @@ static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input
                          RetexError *err)
 {
     const int standard_input = strcmp(file->path, "-") == 0;
-    int status = RETEX_EUNSUPPORTED;
+    int code = RETEX_EUNSUPPORTED;
 
     if (retex_names_linear(file->colorspace))
-        status = read_exr(dst, exr, retex_input_name(input), file, err);
+        code = read_exr(dst, exr, retex_input_name(input), file, err);
     else if (standard_input)
-        retex_fail(err, status, "standard input is read as scene-linear only, not %s", file->colorspace);
-    if (status == RETEX_EUNSUPPORTED && !standard_input)
-        status = retex_bridge_read(dst, file, err);
-    return status;
+        retex_fail(err, code, "standard input is read as scene-linear only, not %s", file->colorspace);
+    if (code == RETEX_EUNSUPPORTED && !standard_input)
+        code = retex_bridge_read(dst, file, err);
+    return code;
 }
 
 /* Warns of colours that the header states and that are not followed. */
@@ -244,18 +244,18 @@ static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, 
 
     choose_colors(&colors, exr, 0);
     tagged.colorspace = colors.colorspace;
-    int status = read_in_space(dst, exr, input, &tagged, err);
-    if (status == RETEX_ENOTFOUND && colors.colorspace[0]) {
+    int code = read_in_space(dst, exr, input, &tagged, err);
+    if (code == RETEX_ENOTFOUND && colors.colorspace[0]) {
         is_unknown = 1;
         choose_colors(&colors, exr, is_unknown);
         tagged.colorspace = colors.colorspace;
-        status = read_in_space(dst, exr, input, &tagged, err);
+        code = read_in_space(dst, exr, input, &tagged, err);
     }
-    if (!status) {
+    if (!code) {
         convert_colors(dst, &colors);
         warn_of_colors(&colors, is_unknown, file);
     }
-    return status;
+    return code;
 }
 
 /* Read a common JPEG or PNG file without the bridge, into one of the levels' images, which has no pixels where the
@@ -304,21 +304,21 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
     const int standard_input = strcmp(path, "-") == 0, linear = retex_names_linear(params->colorspace);
     RetexBridgeFile file;
     RetexExr *exr = NULL;
-    int status = choose_decoder(&file, input, path, params, err);
+    int code = choose_decoder(&file, input, path, params, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     file.nthreads = nthreads;
     if (!standard_input && (!retex_exr_probe(input) || !linear)) {
-        status = read_levels(&(RetexLevels){.image = dst}, input, &file, err);
-        return status || dst->pixels ? status : retex_bridge_read(dst, &file, err);
+        code = read_levels(&(RetexLevels){.image = dst}, input, &file, err);
+        return code || dst->pixels ? code : retex_bridge_read(dst, &file, err);
     }
-    status = retex_exr_open(&exr, input, err);
-    if (!status)
-        status = params->colorspace && params->colorspace[0] ? read_in_space(dst, exr, input, &file, err)
+    code = retex_exr_open(&exr, input, err);
+    if (!code)
+        code = params->colorspace && params->colorspace[0] ? read_in_space(dst, exr, input, &file, err)
                                                              : read_tagged(dst, exr, input, &file, err);
     retex_exr_close(&exr);
-    return status;
+    return code;
 }
 
 /* Checks whether the bridge can read a file, by its beginning: with a limit of one pixel no picture is decoded. */
@@ -329,11 +329,11 @@ static int bridge_check(RetexBridgeFile file, RetexError *err)
 
     file.max_pixels = 1;
     file.warn = NULL;
-    const int status = retex_bridge_read(&image, &file, &error);
+    const int code = retex_bridge_read(&image, &file, &error);
     retex_image_free(&image);
-    if (status && status != RETEX_ELIMIT && err)
+    if (code && code != RETEX_ELIMIT && err)
         *err = error;
-    return status == RETEX_ELIMIT ? 0 : status;
+    return code == RETEX_ELIMIT ? 0 : code;
 }
 
 /* Checks the header of an EXR: 0 if it can be read, here or by the bridge. */
@@ -342,11 +342,11 @@ static int check_exr(RetexInput *input, const RetexBridgeFile *file, RetexError 
     RetexExr *exr = NULL;
     RetexExrRequest request = {.part = 0};
     const char *reason;
-    int grey, status = retex_exr_open(&exr, input, err);
-    const int own = !status && retex_exr_part_readable(exr, 0, &reason) && choose_channels(exr, &request, &grey);
+    int grey, code = retex_exr_open(&exr, input, err);
+    const int own = !code && retex_exr_part_readable(exr, 0, &reason) && choose_channels(exr, &request, &grey);
 
     retex_exr_close(&exr);
-    return own || status ? status : bridge_check(*file, err);
+    return own || code ? code : bridge_check(*file, err);
 }
 
 /* JPEG by its beginning, PNG by its checksums. */
@@ -367,10 +367,10 @@ static int is_sound(RetexInput *input)
 static int check_open(RetexInput *input, const char *path, const RetexReadParams *params, RetexError *err)
 {
     RetexBridgeFile file;
-    const int status = choose_decoder(&file, input, path, params, err);
+    const int code = choose_decoder(&file, input, path, params, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (retex_exr_probe(input))
         return check_exr(input, &file, err);
     return is_sound(input) ? 0 : bridge_check(file, err);
@@ -386,11 +386,11 @@ static int read_narrow(RetexNarrowImage *dst, RetexInput *input, const char *pat
 
     if (strcmp(path, "-") == 0 || retex_exr_probe(input) || (name && name[0] && strcasecmp(name, "sRGB") != 0))
         return 0;
-    int status = choose_decoder(&file, input, path, params, err);
-    if (!status)
-        status = read_levels(&(RetexLevels){.narrow = dst}, input, &file, err);
+    int code = choose_decoder(&file, input, path, params, err);
+    if (!code)
+        code = read_levels(&(RetexLevels){.narrow = dst}, input, &file, err);
     file.nthreads = nthreads;
-    return status || dst->pixels ? status : retex_bridge_read_narrow(dst, &file, err);
+    return code || dst->pixels ? code : retex_bridge_read_narrow(dst, &file, err);
 }
 
 /* Of files of strangers. Some programs make a dozen scans. */
@@ -408,17 +408,17 @@ static int check_scans(const RetexInput *input, const char *path, RetexError *er
 int retex_image_decode(RetexDecoded *decoded, RetexDecode decode, RetexInput *input, const char *path,
                        const RetexReadParams *params, int nthreads, RetexError *err)
 {
-    int status = params->access && params->access->safe ? check_scans(input, path, err) : 0;
+    int code = params->access && params->access->safe ? check_scans(input, path, err) : 0;
 
     *decoded = (RetexDecoded){0};
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (decode == RETEX_DECODE_CHECK)
         return check_open(input, path, params, err);
     if (decode == RETEX_DECODE_ANY)
-        status = read_narrow(&decoded->narrow, input, path, params, nthreads, err);
-    if (status || decoded->narrow.pixels)
-        return status;
+        code = read_narrow(&decoded->narrow, input, path, params, nthreads, err);
+    if (code || decoded->narrow.pixels)
+        return code;
     return read_open(&decoded->image, input, path, params, nthreads, err);
 }
 
@@ -432,8 +432,8 @@ static int read_input(RetexDecoded *decoded, RetexDecode decode, RetexInput *inp
 
     if (!is_apart)
         return retex_image_decode(decoded, decode, input, path, params, nthreads, err);
-    const int status = choose_decoder(&file, input, path, params, err);
-    return status ? status : retex_decoder_run(decoded, decode, input, path, params, nthreads, err);
+    const int code = choose_decoder(&file, input, path, params, err);
+    return code ? code : retex_decoder_run(decoded, decode, input, path, params, nthreads, err);
 }
 
 static int read_path(RetexDecoded *decoded, RetexDecode decode, const char *path, const RetexReadParams *given,
@@ -443,13 +443,13 @@ static int read_path(RetexDecoded *decoded, RetexDecode decode, const char *path
     Reading own;
 
     *decoded = (RetexDecoded){0};
-    int status = copy_params(&own, given, err);
-    if (!status)
-        status = retex_input_open_allowed(&input, path, own.params.access, err);
-    if (!status)
-        status = read_input(decoded, decode, input, path, &own.params, nthreads, err);
+    int code = copy_params(&own, given, err);
+    if (!code)
+        code = retex_input_open_allowed(&input, path, own.params.access, err);
+    if (!code)
+        code = read_input(decoded, decode, input, path, &own.params, nthreads, err);
     retex_input_close(&input);
-    return status;
+    return code;
 }
 
 int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *given, int nthreads, RetexError *err)
@@ -458,10 +458,10 @@ int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *g
 
     if (dst->pixels)
         return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
-    const int status = read_path(&decoded, RETEX_DECODE_PIXELS, path, given, nthreads, err);
-    if (!status)
+    const int code = read_path(&decoded, RETEX_DECODE_PIXELS, path, given, nthreads, err);
+    if (!code)
         *dst = decoded.image;
-    return status;
+    return code;
 }
 
 int retex_image_read_any(RetexDecoded *decoded, const char *path, const RetexReadParams *params, int nthreads,
@@ -476,9 +476,9 @@ int retex_image_read_check(const char *path, const RetexReadParams *given, Retex
     struct stat info;
     Reading own;
 
-    const int status = copy_params(&own, given, err);
-    if (status || strcmp(path, "-") == 0)
-        return status;
+    const int code = copy_params(&own, given, err);
+    if (code || strcmp(path, "-") == 0)
+        return code;
     if (!own.access.safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
         return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
     return read_path(&none, RETEX_DECODE_CHECK, path, &own.params, 1, err);

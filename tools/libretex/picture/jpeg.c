@@ -161,29 +161,29 @@ static int encode_strip(RetexPicture *picture, int strip, const uint8_t *codes, 
 {
     unsigned char *data, *whole = NULL;
     size_t head, bytes, start = MARKER_BYTES, unused;
-    int status = run_compressor(&data, &head, &bytes, picture, codes, retex_picture_strip_lines(picture, strip), err);
+    int code = run_compressor(&data, &head, &bytes, picture, codes, retex_picture_strip_lines(picture, strip), err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (strip + 1 < picture->nstrips)
         bytes -= MARKER_BYTES;
     if (strip == 0) {
-        status = run_compressor(&whole, &start, &unused, picture, NULL, 0, err);
+        code = run_compressor(&whole, &start, &unused, picture, NULL, 0, err);
     } else {
         data[head - 2] = 0xff;
         data[head - 1] = (unsigned char)(JPEG_RST0 + (strip - 1) % 8);
     }
-    if (!status && strip == 0) {
+    if (!code && strip == 0) {
         /* the header of the picture is as long as that of a strip: only the height differs */
         if (start == head)
             memcpy(data, whole, head);
         else
-            status = retex_fail(err, RETEX_EINTERNAL, "cannot write %s: unexpected headers", picture->path);
+            code = retex_fail(err, RETEX_EINTERNAL, "cannot write %s: unexpected headers", picture->path);
     }
     free(whole);
-    if (status) {
+    if (code) {
         free(data);
-        return status;
+        return code;
     }
     const size_t skip = strip == 0 ? 0 : head - MARKER_BYTES;
     memmove(data, data + skip, bytes - skip);
@@ -202,14 +202,14 @@ static int jpeg_strip(RetexPicture *picture, int strip, const float *rows, Retex
 {
     const int lines = retex_picture_strip_lines(picture, strip), channels = picture->channels == 1 ? 1 : 3;
     uint8_t *codes = malloc((size_t)picture->width * (size_t)(lines * channels));
-    int status = codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    int code = codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
-    if (!status)
-        status = retex_picture_codes(picture, codes, 8, channels, rows, lines, err);
-    if (!status)
-        status = encode_strip(picture, strip, codes, err);
+    if (!code)
+        code = retex_picture_codes(picture, codes, 8, channels, rows, lines, err);
+    if (!code)
+        code = encode_strip(picture, strip, codes, err);
     free(codes);
-    return status;
+    return code;
 }
 
 static int jpeg_finish(RetexPicture *picture, RetexError *err)

@@ -86,23 +86,23 @@ static int check_params(const char *path, const RetexWriteParams *params, RetexE
 int retex_image_format_check(const char *path, const RetexWriteParams *given, RetexError *err)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
-    int status = RETEX_PARAMS_COPY(&params, given, err);
-    if (!status)
-        status = check_params(path, &params, err);
-    if (status || is_linear_exr(path, &params) || (own_format(path) && has_own_colors(&params)))
-        return status;
+    int code = RETEX_PARAMS_COPY(&params, given, err);
+    if (!code)
+        code = check_params(path, &params, err);
+    if (code || is_linear_exr(path, &params) || (own_format(path) && has_own_colors(&params)))
+        return code;
     return retex_bridge_check(path, &params, err);
 }
 
 int retex_image_write_check(const char *path, const RetexWriteParams *given, RetexError *err)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
-    int status = RETEX_PARAMS_COPY(&params, given, err);
-    if (!status)
-        status = check_params(path, &params, err);
-    if (!status)
-        status = retex_output_check(path, err);
-    return status ? status : retex_image_format_check(path, &params, err);
+    int code = RETEX_PARAMS_COPY(&params, given, err);
+    if (!code)
+        code = check_params(path, &params, err);
+    if (!code)
+        code = retex_output_check(path, err);
+    return code ? code : retex_image_format_check(path, &params, err);
 }
 
 /* --- beginning --- */
@@ -190,17 +190,17 @@ static int needs_other_tiff(const char *path, const RetexOutput *output, int wid
 static int open_picture(RetexPicture **result, const char *path, RetexOutput *output, int width, int height,
                         int channels, const RetexWriteParams *params, RetexError *err)
 {
-    int status = check_params(path, params, err);
-    if (!status && (channels < 1 || channels > 4 || channels == 2))
-        status = retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", channels);
-    if (!status && (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE))
-        status = retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is out of bounds", width, height);
-    if (!status && !output)
-        status = retex_output_check(path, err);
-    RetexPicture *picture = status ? NULL : new_picture(path, width, height, channels, params);
+    int code = check_params(path, params, err);
+    if (!code && (channels < 1 || channels > 4 || channels == 2))
+        code = retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", channels);
+    if (!code && (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE))
+        code = retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is out of bounds", width, height);
+    if (!code && !output)
+        code = retex_output_check(path, err);
+    RetexPicture *picture = code ? NULL : new_picture(path, width, height, channels, params);
     if (!picture) {
         retex_output_abandon(&output);
-        return status ? status : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
+        return code ? code : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
     }
     picture->output = output;
     const RetexPictureFormat *own = is_exr(path, params) ? &retex_picture_exr : own_format(path);
@@ -209,22 +209,22 @@ static int open_picture(RetexPicture **result, const char *path, RetexOutput *ou
     picture->format = own ? own : &retex_picture_stored;
     if (own == &retex_picture_exr ? !is_linear_exr(path, params) : !own || !has_own_colors(params))
         begin_loading(picture);
-    status = picture->format->begin(picture, err);
-    if (status)
+    code = picture->format->begin(picture, err);
+    if (code)
         free_picture(picture);
     else
         *result = picture;
-    return status;
+    return code;
 }
 
 int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
                        const RetexWriteParams *given, RetexError *err)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
-    const int status = RETEX_PARAMS_COPY(&params, given, err);
+    const int code = RETEX_PARAMS_COPY(&params, given, err);
 
     *result = NULL;
-    return status ? status : open_picture(result, path, NULL, width, height, channels, &params, err);
+    return code ? code : open_picture(result, path, NULL, width, height, channels, &params, err);
 }
 
 int retex_picture_open_memory(RetexPicture **result, const char *format, int width, int height, int channels,
@@ -236,10 +236,10 @@ int retex_picture_open_memory(RetexPicture **result, const char *format, int wid
 
     *result = NULL;
     snprintf(name, sizeof name, "picture.%s", format);
-    int status = RETEX_PARAMS_COPY(&params, given, err);
-    if (!status)
-        status = retex_output_open_memory(&output, err);
-    return status ? status : open_picture(result, name, output, width, height, channels, &params, err);
+    int code = RETEX_PARAMS_COPY(&params, given, err);
+    if (!code)
+        code = retex_output_open_memory(&output, err);
+    return code ? code : open_picture(result, name, output, width, height, channels, &params, err);
 }
 
 /* --- strips --- */
@@ -269,11 +269,11 @@ static int claim_strip(RetexPicture *picture, int y0, int y1, RetexError *err)
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err)
 {
     RetexError error = {0};
-    int status = claim_strip(picture, y0, y1, &error);
+    int code = claim_strip(picture, y0, y1, &error);
 
-    if (!status)
-        status = picture->format->strip(picture, y0 / RETEX_PICTURE_STRIP, rows, &error);
-    if (!status)
+    if (!code)
+        code = picture->format->strip(picture, y0 / RETEX_PICTURE_STRIP, rows, &error);
+    if (!code)
         return 0;
     pthread_mutex_lock(&picture->lock);
     if (!picture->error.code)
@@ -281,7 +281,7 @@ int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows,
     pthread_mutex_unlock(&picture->lock);
     if (err)
         *err = error;
-    return status;
+    return code;
 }
 
 /* Writes what follows the strips. */
@@ -300,22 +300,22 @@ static int finish_format(RetexPicture *picture, RetexError *err)
 
 static int finish(RetexPicture *picture, RetexError *err)
 {
-    const int status = finish_format(picture, err);
-    return status || !picture->output ? status : retex_output_commit(&picture->output, err);
+    const int code = finish_format(picture, err);
+    return code || !picture->output ? code : retex_output_commit(&picture->output, err);
 }
 
 int retex_picture_take(RetexPicture **result, void **data, size_t *bytes, RetexError *err)
 {
     RetexPicture *picture = *result;
-    int status = finish_format(picture, err);
+    int code = finish_format(picture, err);
 
     *data = NULL;
     *bytes = 0;
-    if (!status)
-        status = retex_output_take(&picture->output, data, bytes, err);
+    if (!code)
+        code = retex_output_take(&picture->output, data, bytes, err);
     free_picture(picture);
     *result = NULL;
-    return status;
+    return code;
 }
 
 int retex_picture_close(RetexPicture **result, int keep, RetexError *err)
@@ -324,10 +324,10 @@ int retex_picture_close(RetexPicture **result, int keep, RetexError *err)
 
     if (!picture)
         return 0;
-    const int status = keep ? finish(picture, err) : 0;
+    const int code = keep ? finish(picture, err) : 0;
     free_picture(picture);
     *result = NULL;
-    return status;
+    return code;
 }
 
 /* --- a picture that is there already --- */
@@ -367,9 +367,9 @@ int retex_image_write(const RetexImage *src, const char *path, const RetexWriteP
 
     if (!src->pixels)
         return retex_fail(err, RETEX_EINVAL, "there is no picture to be written");
-    const int status = retex_picture_open(&picture, path, src->width, src->height, src->channels, params, err);
-    if (status)
-        return status;
+    const int code = retex_picture_open(&picture, path, src->width, src->height, src->channels, params, err);
+    if (code)
+        return code;
     (void)retex_picture_image(picture, src, nthreads, NULL); /* which the picture keeps the error of */
     return retex_picture_close(&picture, 1, err);
 }

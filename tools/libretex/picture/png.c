@@ -156,23 +156,23 @@ static int png_strip(RetexPicture *picture, int strip, const float *rows, RetexE
     uint8_t *codes = malloc(line_bytes(picture) * (size_t)lines);
     unsigned char *filtered = malloc(bytes), *encoded = NULL;
     size_t encoded_bytes;
-    int status = codes && filtered ? 0 : RETEX_ENOMEM;
+    int code = codes && filtered ? 0 : RETEX_ENOMEM;
 
-    if (!status) {
-        status = retex_picture_codes(picture, codes, bits_of(picture), picture->channels, rows, lines, err);
-        if (!status && bits_of(picture) == 16)
+    if (!code) {
+        code = retex_picture_codes(picture, codes, bits_of(picture), picture->channels, rows, lines, err);
+        if (!code && bits_of(picture) == 16)
             order_bytes(codes, line_bytes(picture) / 2 * (size_t)lines);
-        if (!status && !filter_lines(filtered, picture, codes, lines))
-            status = RETEX_ENOMEM;
+        if (!code && !filter_lines(filtered, picture, codes, lines))
+            code = RETEX_ENOMEM;
     }
-    if (!status) {
+    if (!code) {
         ((Sum *)picture->state)[strip] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
         encoded = encode_strip(picture, strip, filtered, bytes, &encoded_bytes);
-        status = encoded ? retex_picture_submit_strip(picture, strip, encoded, encoded_bytes, err) : RETEX_ENOMEM;
+        code = encoded ? retex_picture_submit_strip(picture, strip, encoded, encoded_bytes, err) : RETEX_ENOMEM;
     }
     free(codes);
     free(filtered);
-    return status == RETEX_ENOMEM ? retex_fail(err, status, "no memory to write %s", picture->path) : status;
+    return code == RETEX_ENOMEM ? retex_fail(err, code, "no memory to write %s", picture->path) : code;
 }
 
 /* Writes the stream's checksum, in a chunk of its own, and the end. */

@@ -17,18 +17,18 @@ enum { BYTES_READ_BEYOND = 1024 };
 /* Allocates the samples, when the bridge has told how many there are. */
 static int need_samples(RetexPicture *picture, RetexError *err)
 {
-    int status = retex_picture_plan(picture, err);
+    int code = retex_picture_plan(picture, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     const size_t bytes = row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8);
     pthread_mutex_lock(&picture->lock);
     if (!picture->state && (picture->state = malloc(bytes + BYTES_READ_BEYOND)))
         memset((char *)picture->state + bytes, 0, BYTES_READ_BEYOND);
     if (!picture->state)
-        status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     pthread_mutex_unlock(&picture->lock);
-    return status;
+    return code;
 }
 
 static int stored_begin(RetexPicture *picture, RetexError *err)
@@ -40,18 +40,18 @@ static int stored_begin(RetexPicture *picture, RetexError *err)
 static int stored_strip(RetexPicture *picture, int strip, const float *rows, RetexError *err)
 {
     const int lines = retex_picture_strip_lines(picture, strip);
-    int status = need_samples(picture, err);
+    int code = need_samples(picture, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     const size_t row = row_samples(picture), first = row * (size_t)strip * RETEX_PICTURE_STRIP;
     unsigned char *samples = (unsigned char *)picture->state + first * (size_t)(picture->stored.bits / 8);
     if (picture->stored.bits <= 16)
-        status =
+        code =
             retex_picture_codes(picture, samples, picture->stored.bits, picture->stored.channels, rows, lines, err);
     else
-        status = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
-    return status ? status : retex_picture_submit_strip(picture, strip, NULL, 0, err);
+        code = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
+    return code ? code : retex_picture_submit_strip(picture, strip, NULL, 0, err);
 }
 
 static int append(void *picture, const void *data, size_t bytes, RetexError *err)

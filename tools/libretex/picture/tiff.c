@@ -99,19 +99,19 @@ static int tiff_strip(RetexPicture *picture, int strip, const float *rows, Retex
     uint8_t *codes = malloc(bytes);
     unsigned char *encoded = NULL;
     size_t encoded_bytes = 0;
-    int status = codes ? 0 : RETEX_ENOMEM;
+    int code = codes ? 0 : RETEX_ENOMEM;
 
-    if (!status)
-        status = retex_picture_codes(picture, codes, bits, picture->channels, rows, lines, err);
-    if (!status) {
+    if (!code)
+        code = retex_picture_codes(picture, codes, bits, picture->channels, rows, lines, err);
+    if (!code) {
         for (int y = 0; y < lines; y++)
             difference(codes + (size_t)y * line, bits, samples, (size_t)picture->channels);
         encoded = encode_strip(strip == 0, codes, bytes, &encoded_bytes);
         ((uint32_t *)picture->state)[strip] = (uint32_t)encoded_bytes;
-        status = encoded ? retex_picture_submit_strip(picture, strip, encoded, encoded_bytes, err) : RETEX_ENOMEM;
+        code = encoded ? retex_picture_submit_strip(picture, strip, encoded, encoded_bytes, err) : RETEX_ENOMEM;
     }
     free(codes);
-    return status == RETEX_ENOMEM ? retex_fail(err, status, "no memory to write %s", picture->path) : status;
+    return code == RETEX_ENOMEM ? retex_fail(err, code, "no memory to write %s", picture->path) : code;
 }
 
 /* ---- the directory ---- */
@@ -190,23 +190,23 @@ static int tiff_finish(RetexPicture *picture, RetexError *err)
     uint32_t *sizes = picture->state, at = HEAD;
     uint32_t *offsets = malloc((size_t)picture->nstrips * sizeof *offsets);
     Directory d = {.values = malloc((size_t)picture->nstrips * 2 * sizeof *sizes + 1024)};
-    int status = offsets && d.values ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    int code = offsets && d.values ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
     sizes[0] -= HEAD;
-    for (int i = 0; !status && i < picture->nstrips; at += sizes[i++])
+    for (int i = 0; !code && i < picture->nstrips; at += sizes[i++])
         offsets[i] = at;
     d.at = at;
-    if (!status) {
+    if (!code) {
         list_entries(&d, picture, offsets, sizes);
         const uint32_t place = at + (uint32_t)d.bytes;
         put_directory(d.values, &d.bytes, d.entries, d.count);
-        status = retex_picture_append(picture, d.values, d.bytes, err);
-        if (!status)
-            status = retex_output_patch(picture->output, 4, &place, sizeof place, err);
+        code = retex_picture_append(picture, d.values, d.bytes, err);
+        if (!code)
+            code = retex_output_patch(picture->output, 4, &place, sizeof place, err);
     }
     free(offsets);
     free(d.values);
-    return status;
+    return code;
 }
 
 static void tiff_end(RetexPicture *picture)

@@ -23,9 +23,9 @@
 
 /* A footprint of a pixel of the block. */
 typedef struct Source {
-    int pixel, slot; /* number of the pixel in the block; slot of its kind */
-    int into;        /* the source that it was merged into, itself where it was not */
-    int to;          /* of a source that was not merged: the slot that it goes to; -1: none */
+    int pixel, member; /* number of the pixel in the block; member of its kind */
+    int into;          /* the source that it was merged into, itself where it was not */
+    int to;            /* of a source that was not merged: the member that it goes to; -1: none */
     float uv[3], spread[3];
     double light[3];
 } Source;
@@ -117,7 +117,7 @@ static void find_shares(const RetexReduceBlock *block, RetexReduceScratch *scrat
 static void column_of(const RetexReduceBlock *block, const RetexReduceScratch *scratch, const RetexReduceColumn *column,
                       const Source *source, double of[3])
 {
-    const int part = column->from[source->slot];
+    const int part = column->from[source->member];
     for (int c = 0; c < 3; c++)
         of[c] = part < 0 ? 0 : (double)pixel_of(block, part, source->pixel)[column->channels == 3 ? c : 0];
     for (int c = 0; c < 3 && column->weights >= 0; c++)
@@ -161,7 +161,7 @@ static void gather(const RetexReduceBlock *block, RetexReduceScratch *scratch, c
             if (!(pixel_of(block, f->uv, i)[2] > 0))
                 continue;
             const int x = block->x + i % block->width, y = block->y + i / block->width;
-            *source = (Source){.pixel = i, .slot = k, .into = count, .to = -1};
+            *source = (Source){.pixel = i, .member = k, .into = count, .to = -1};
             retex_footprint_ellipse(block->rows, f, (size_t)y * (size_t)block->rows->width + (size_t)x, source->uv,
                                     source->spread);
             find_light(block, scratch, kind, source);
@@ -245,10 +245,10 @@ static int is_even(const RetexReduceBlock *block, const RetexReduceKind *kind, c
     return even;
 }
 
-/* The slot of the block's quarter that a pixel's quarter is in. */
-static int quarter_slot(const RetexReduceBlock *block, const RetexReduceKind *kind, const Source *source)
+/* The member of the block's quarter that a pixel's quarter is in. */
+static int quarter_member(const RetexReduceBlock *block, const RetexReduceKind *kind, const Source *source)
 {
-    const int quadrant = block->rows->footprints[kind->from[source->slot]].quadrant - 1;
+    const int quadrant = block->rows->footprints[kind->from[source->member]].quadrant - 1;
     const int x = 2 * (source->pixel % block->width) + (quadrant & 1 && quadrant >= 0);
     const int y = 2 * (source->pixel / block->width) + (quadrant & 2 && quadrant >= 0);
     return kind->map[(x >= block->width) + 2 * (y >= block->height)];
@@ -280,8 +280,8 @@ static int place_map(const RetexReduceBlock *block, RetexReduceScratch *scratch,
     store_map(block, kind, &map);
     for (int i = 0; i < scratch->nsources; i++) {
         Source *source = &scratch->sources[i];
-        if (retex_footprint_has_axes(block->rows, &block->rows->footprints[kind->from[source->slot]]))
-            source->to = quarter_slot(block, kind, source);
+        if (retex_footprint_has_axes(block->rows, &block->rows->footprints[kind->from[source->member]]))
+            source->to = quarter_member(block, kind, source);
     }
     return 1;
 }
@@ -294,15 +294,15 @@ static void merge_sources(void *context, int into, int from)
     scratch->sources[from].into = into;
 }
 
-/* The slot that a source's light goes to. */
-static int slot_of(const RetexReduceScratch *scratch, int source)
+/* The member that a source's light goes to. */
+static int member_of(const RetexReduceScratch *scratch, int source)
 {
     while (scratch->sources[source].into != source)
         source = scratch->sources[source].into;
     return scratch->sources[source].to;
 }
 
-/* Merge what is not in parallelograms until there is a slot for each cluster, and store the clusters. */
+/* Merge what is not in parallelograms until there is a member for each cluster, and store the clusters. */
 static void merge(const RetexReduceBlock *block, RetexReduceScratch *scratch, const RetexReduceKind *kind)
 {
     RetexUvPool pool = {.periodic = block->rows->targets[kind->target].periodic,
@@ -323,7 +323,7 @@ static void merge(const RetexReduceBlock *block, RetexReduceScratch *scratch, co
     for (int k = 0; k < pool.count; k++)
         scratch->sources[pool.of[k].number].to = kind->ellipses[k];
     for (int i = 0; i < scratch->nsources; i++)
-        coverage[slot_of(scratch, i)] += (double)scratch->sources[i].uv[2];
+        coverage[member_of(scratch, i)] += (double)scratch->sources[i].uv[2];
     for (int k = 0; k < pool.count; k++) {
         const RetexFootprint *f = &block->plan->reduced->footprints[kind->to[kind->ellipses[k]]];
         float *uv = made_pixel(block, f->uv);
@@ -334,7 +334,7 @@ static void merge(const RetexReduceBlock *block, RetexReduceScratch *scratch, co
 
 /* ---- light and albedo ---- */
 
-/* The sum over a slot's sources. Light is the mean over pixels, weights are shares of all light that they divide. */
+/* The sum over a member's sources. Light is the mean over pixels, weights are shares of all light that they divide. */
 static void store_column(const RetexReduceBlock *block, const RetexReduceScratch *scratch, const RetexReduceKind *kind,
                          const RetexReduceColumn *column)
 {
@@ -345,7 +345,7 @@ static void store_column(const RetexReduceBlock *block, const RetexReduceScratch
         double of[3];
         column_of(block, scratch, column, &scratch->sources[i], of);
         for (int c = 0; c < 3; c++)
-            sums[slot_of(scratch, i)][c] += of[c];
+            sums[member_of(scratch, i)][c] += of[c];
     }
     for (int k = 0; k < kind->count; k++)
         for (int c = 0; c < column->channels; c++) {
@@ -359,11 +359,12 @@ static void store_albedo(const RetexReduceBlock *block, const RetexReduceScratch
     double sums[RETEX_SHARES_MAX][3] = {{0}}, light[RETEX_SHARES_MAX][3] = {{0}};
     for (int i = 0; i < scratch->nsources; i++) {
         const Source *source = &scratch->sources[i];
-        const float *albedo = pixel_of(block, block->rows->footprints[kind->from[source->slot]].albedo, source->pixel);
-        const int slot = kind->albedo_of[slot_of(scratch, i)];
+        const RetexFootprint *from = &block->rows->footprints[kind->from[source->member]];
+        const float *albedo = pixel_of(block, from->albedo, source->pixel);
+        const int member = kind->albedo_of[member_of(scratch, i)];
         for (int c = 0; c < 3; c++) {
-            sums[slot][c] += source->light[c] * (double)albedo[c];
-            light[slot][c] += source->light[c];
+            sums[member][c] += source->light[c] * (double)albedo[c];
+            light[member][c] += source->light[c];
         }
     }
     for (int k = 0; k < kind->count; k++)

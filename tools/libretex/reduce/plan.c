@@ -22,7 +22,7 @@ typedef struct Planning {
     RetexReducePlan *plan;
     const RetexSet *set;
     int scale;
-    int *slots;          /* by part with light or weights: its kind and slot, as one number; else RETEX_REDUCE_NONE */
+    int *members; /* by part with light or weights: its kind and member, as one number; else RETEX_REDUCE_NONE */
     char *in_columns;    /* by term: its radiance is in a column */
     const char *unknown; /* what cannot be reduced, or NULL */
 } Planning;
@@ -46,19 +46,19 @@ static RetexReduceKind *find_kind(RetexReducePlan *plan, int target, RetexFootpr
     return made;
 }
 
-/* The kind and slot of a footprint. */
-static RetexReduceKind *find_slot(RetexReducePlan *plan, const RetexSet *set, int footprint, int *slot)
+/* The kind and member of a footprint. */
+static RetexReduceKind *find_member(RetexReducePlan *plan, const RetexSet *set, int footprint, int *member)
 {
     RetexReduceKind *kind = find_kind(plan, set->footprints[footprint].target, set->footprints[footprint].kind);
-    for (*slot = 0; kind->from[*slot] != footprint;)
-        ++*slot;
+    for (*member = 0; kind->from[*member] != footprint;)
+        ++*member;
     return kind;
 }
 
 /* Add a parallelogram to a kind, which may have one, whole or in quarters. */
 static int add_map(RetexReduceKind *kind, const RetexSet *set, const RetexFootprint *f)
 {
-    const int slot = kind->count - 1;
+    const int member = kind->count - 1;
     for (int q = 0; q < RETEX_QUADRANTS; q++) {
         const RetexFootprint *other = kind->map[q] < 0 ? NULL : &set->footprints[kind->from[kind->map[q]]];
         if (other && (other->uv != f->uv || other->spread != f->spread))
@@ -67,12 +67,12 @@ static int add_map(RetexReduceKind *kind, const RetexSet *set, const RetexFootpr
             continue;
         if (other)
             return 0;
-        kind->map[q] = slot;
+        kind->map[q] = member;
     }
     return 1;
 }
 
-static int add_slot(Planning *p, int footprint)
+static int add_member(Planning *p, int footprint)
 {
     const RetexFootprint *f = &p->set->footprints[footprint];
     if (f->kind == RETEX_FOOTPRINT_HIT || f->uv < 0 || f->spread < 0 || f->albedo < 0)
@@ -100,7 +100,7 @@ static int sort_footprints(Planning *p)
 {
     int sound = 1;
     for (int i = 0; i < p->set->nfootprints && sound; i++)
-        sound = add_slot(p, i);
+        sound = add_member(p, i);
     for (int i = 0; i < p->plan->nkinds; i++) {
         int quarters = 0;
         for (int q = 0; q < RETEX_QUADRANTS; q++)
@@ -128,16 +128,16 @@ static RetexReduceColumn *add_column(RetexReduceKind *kind, int term, int mixtur
     return columns;
 }
 
-/* Put a part into a column. It may be in several, but of one slot. */
-static void place_part(Planning *p, const RetexReduceKind *kind, RetexReduceColumn *column, int slot, int part)
+/* Put a part into a column. It may be in several, but of one member. */
+static void place_part(Planning *p, const RetexReduceKind *kind, RetexReduceColumn *column, int member, int part)
 {
-    const int number = (int)(kind - p->plan->kinds) * RETEX_SHARES_MAX + slot;
-    column->from[slot] = part;
-    if ((p->slots[part] != RETEX_REDUCE_NONE && p->slots[part] != number) || part == 0 ||
-        (p->plan->rules[part] != RETEX_REDUCE_MEAN && p->plan->rules[part] != RETEX_REDUCE_SLOTS))
+    const int number = (int)(kind - p->plan->kinds) * RETEX_SHARES_MAX + member;
+    column->from[member] = part;
+    if ((p->members[part] != RETEX_REDUCE_NONE && p->members[part] != number) || part == 0 ||
+        (p->plan->rules[part] != RETEX_REDUCE_MEAN && p->plan->rules[part] != RETEX_REDUCE_MEMBERS))
         p->unknown = "its parts are used for several things";
-    p->slots[part] = number;
-    p->plan->rules[part] = RETEX_REDUCE_SLOTS;
+    p->members[part] = number;
+    p->plan->rules[part] = RETEX_REDUCE_MEMBERS;
 }
 
 /* What the light of a term counts, those of further hits on surfaces of RETEX_COMPACT_GREY; 0 of what is in others. */
@@ -173,20 +173,20 @@ static int are_alike(const RetexTerm *a, const RetexTerm *b, int place)
     return alike;
 }
 
-/* The column of a term whose factor number `place` is in this slot. */
-static int sort_into_column(Planning *p, RetexReduceKind *kind, int slot, int term, int place, RetexError *err)
+/* The column of a term whose factor number `place` is in this member. */
+static int sort_into_column(Planning *p, RetexReduceKind *kind, int member, int term, int place, RetexError *err)
 {
     const RetexTerm *terms = p->set->terms;
     RetexReduceColumn *column = NULL;
     for (int i = 0; i < kind->ncolumns && !column; i++) {
         RetexReduceColumn *other = &kind->columns[i];
-        if (other->term >= 0 && other->from[slot] < 0 && are_alike(&terms[other->term], &terms[term], place))
+        if (other->term >= 0 && other->from[member] < 0 && are_alike(&terms[other->term], &terms[term], place))
             column = other;
     }
     if (!column && !(column = add_column(kind, term, RETEX_REDUCE_NONE, 3, err)))
         return RETEX_ENOMEM;
     find_value(p->set, &terms[term], column->value);
-    place_part(p, kind, column, slot, terms[term].radiance);
+    place_part(p, kind, column, member, terms[term].radiance);
     p->in_columns[term] = 1;
     return RETEX_OK;
 }
@@ -198,14 +198,14 @@ static int sort_term(Planning *p, int number, RetexError *err)
     const RetexTerm *term = &p->set->terms[number];
     int place = RETEX_REDUCE_NONE, code = RETEX_OK;
     for (int k = 0; k < term->nfactors && !code; k++) {
-        int slot, seen = 0;
+        int member, seen = 0;
         if (term->factors[k].kind == RETEX_FACTOR_IMAGE)
             p->unknown = "its terms have images as factors";
         if (term->factors[k].kind != RETEX_FACTOR_FOOTPRINT)
             continue;
         for (int i = 0; i < k; i++)
             seen |= memcmp(&term->factors[i], &term->factors[k], sizeof *term->factors) == 0;
-        RetexReduceKind *kind = find_slot(p->plan, p->set, term->factors[k].index, &slot);
+        RetexReduceKind *kind = find_member(p->plan, p->set, term->factors[k].index, &member);
         if (kind->count == 1 && !seen && retex_term_is_light(term))
             code = add_light(&kind->light, &kind->nlight, p->set, term, err);
         if (kind->count > 1 && place >= 0)
@@ -215,9 +215,9 @@ static int sort_term(Planning *p, int number, RetexError *err)
     }
     if (place < 0 || p->unknown || code)
         return code;
-    int slot;
-    RetexReduceKind *kind = find_slot(p->plan, p->set, term->factors[place].index, &slot);
-    return sort_into_column(p, kind, slot, number, place, err);
+    int member;
+    RetexReduceKind *kind = find_member(p->plan, p->set, term->factors[place].index, &member);
+    return sort_into_column(p, kind, member, number, place, err);
 }
 
 /* ---- weights ---- */
@@ -301,17 +301,17 @@ static int sort_mixture(Planning *p, int number, int weights, RetexError *err)
     const RetexMixture *mixture = &p->set->mixtures[number];
     const int radiance = are_radiance(p, &p->plan->weights[weights]);
     for (int k = 0; k < mixture->nshares; k++) {
-        int slot;
+        int member;
         const int part = mixture->shares[k].weight;
-        RetexReduceKind *kind = find_slot(p->plan, p->set, mixture->shares[k].footprint, &slot);
+        RetexReduceKind *kind = find_member(p->plan, p->set, mixture->shares[k].footprint, &member);
         RetexReduceColumn *column = kind->ncolumns ? &kind->columns[kind->ncolumns - 1] : NULL;
         if ((!column || column->mixture != number) &&
             !(column = add_column(kind, RETEX_REDUCE_NONE, number, p->set->parts[part].image.channels, err)))
             return RETEX_ENOMEM;
-        if (column->channels != p->set->parts[part].image.channels || column->from[slot] >= 0)
+        if (column->channels != p->set->parts[part].image.channels || column->from[member] >= 0)
             p->unknown = "its mixtures are of another form than those of layout footprints";
         column->weights = radiance ? RETEX_REDUCE_NONE : weights;
-        place_part(p, kind, column, slot, part);
+        place_part(p, kind, column, member, part);
     }
     return RETEX_OK;
 }
@@ -375,8 +375,8 @@ static int add_part(Planning *p, int part, RetexError *err)
                               original ? reduced_size(old->image.height, p->scale) : 0, &p->plan->to[part], err);
 }
 
-/* Give a column a part for a slot where it had none. */
-static int add_slot_part(Planning *p, RetexReduceColumn *column, int slot, RetexError *err)
+/* Give a column a part for a member where it had none. */
+static int add_member_part(Planning *p, RetexReduceColumn *column, int member, RetexError *err)
 {
     RetexSet *reduced = p->plan->reduced;
     int like = 0;
@@ -384,13 +384,13 @@ static int add_slot_part(Planning *p, RetexReduceColumn *column, int slot, Retex
         like++;
     const RetexPart *part = &p->set->parts[column->from[like]];
     char name[2 * RETEX_NAME_MAX];
-    snprintf(name, sizeof name, "%.*s_slot%d", RETEX_NAME_MAX - 16, part->name, slot + 1);
+    snprintf(name, sizeof name, "%.*s_slot%d", RETEX_NAME_MAX - 16, part->name, member + 1);
     for (int i = 2; retex_set_find_part(reduced, name) >= 0; i++)
-        snprintf(name, sizeof name, "%.*s_slot%d-%d", RETEX_NAME_MAX - 16, part->name, slot + 1, i);
-    return retex_set_add_part(reduced, name, part->letters, part->type, 0, 0, &column->to[slot], err);
+        snprintf(name, sizeof name, "%.*s_slot%d-%d", RETEX_NAME_MAX - 16, part->name, member + 1, i);
+    return retex_set_add_part(reduced, name, part->letters, part->type, 0, 0, &column->to[member], err);
 }
 
-static int add_slot_parts(Planning *p, RetexError *err)
+static int add_member_parts(Planning *p, RetexError *err)
 {
     int code = RETEX_OK;
     for (int i = 0; i < p->plan->nkinds; i++) {
@@ -401,7 +401,7 @@ static int add_slot_parts(Planning *p, RetexError *err)
                 if (column->from[k] >= 0)
                     column->to[k] = p->plan->to[column->from[k]];
                 else
-                    code = add_slot_part(p, column, k, err);
+                    code = add_member_part(p, column, k, err);
             }
     }
     return code;
@@ -412,15 +412,15 @@ static int add_footprints(Planning *p, RetexError *err)
     int code = RETEX_OK;
     for (int i = 0; i < p->set->nfootprints && !code; i++) {
         RetexFootprint f = p->set->footprints[i];
-        int slot;
-        RetexReduceKind *kind = find_slot(p->plan, p->set, i, &slot);
+        int member;
+        RetexReduceKind *kind = find_member(p->plan, p->set, i, &member);
         f.uv = p->plan->to[f.uv], f.spread = p->plan->to[f.spread], f.albedo = p->plan->to[f.albedo];
-        code = retex_set_add_footprint(p->plan->reduced, &f, &kind->to[slot], err);
+        code = retex_set_add_footprint(p->plan->reduced, &f, &kind->to[member], err);
     }
     return code;
 }
 
-/* Mixtures have weights of all slots of the kinds that they mix. */
+/* Mixtures have weights of all members of the kinds that they mix. */
 static int add_mixture(Planning *p, int number, RetexError *err)
 {
     RetexMixture mixture = {0};
@@ -439,8 +439,8 @@ static int add_mixture(Planning *p, int number, RetexError *err)
     return retex_set_add_mixture(p->plan->reduced, &mixture, NULL, err);
 }
 
-/* Add the terms of a column's slots that had no light. */
-static int add_slot_terms(Planning *p, const RetexReduceKind *kind, const RetexReduceColumn *column, RetexError *err)
+/* Add the terms of a column's members that had no light. */
+static int add_member_terms(Planning *p, const RetexReduceKind *kind, const RetexReduceColumn *column, RetexError *err)
 {
     int code = RETEX_OK;
     for (int k = 0; k < kind->count && column->term >= 0 && !code; k++) {
@@ -471,7 +471,7 @@ static int add_terms(Planning *p, RetexError *err)
     }
     for (int i = 0; i < p->plan->nkinds; i++)
         for (int j = 0; j < p->plan->kinds[i].ncolumns && !code; j++)
-            code = add_slot_terms(p, &p->plan->kinds[i], &p->plan->kinds[i].columns[j], err);
+            code = add_member_terms(p, &p->plan->kinds[i], &p->plan->kinds[i].columns[j], err);
     return code;
 }
 
@@ -493,7 +493,7 @@ static int make_reduced(Planning *p, RetexError *err)
         if (set->targets[t].original >= 0)
             plan->reduced->targets[t].original = plan->to[set->targets[t].original];
     if (!code)
-        code = add_slot_parts(p, err);
+        code = add_member_parts(p, err);
     if (!code)
         code = add_footprints(p, err);
     for (int m = 0; m < set->nmixtures && !code; m++)
@@ -508,12 +508,12 @@ static int alloc_planning(Planning *p, RetexError *err)
     const size_t parts = (size_t)p->set->nparts;
     p->plan->rules = calloc(parts + 1, sizeof *p->plan->rules);
     p->plan->to = malloc((parts + 1) * sizeof *p->plan->to);
-    p->slots = malloc((parts + 1) * sizeof *p->slots);
+    p->members = malloc((parts + 1) * sizeof *p->members);
     p->in_columns = calloc((size_t)p->set->nterms + 1, 1);
-    if (!p->plan->rules || !p->plan->to || !p->slots || !p->in_columns)
+    if (!p->plan->rules || !p->plan->to || !p->members || !p->in_columns)
         return no_memory(err);
     for (size_t i = 0; i < parts; i++)
-        p->plan->to[i] = p->slots[i] = RETEX_REDUCE_NONE;
+        p->plan->to[i] = p->members[i] = RETEX_REDUCE_NONE;
     return RETEX_OK;
 }
 
@@ -534,7 +534,7 @@ int retex_reduce_plan_open(RetexReducePlan *plan, const RetexSet *set, int scale
         code = retex_fail(err, RETEX_EUNSUPPORTED, "the set cannot be reduced: %s", p.unknown);
     if (!code)
         code = make_reduced(&p, err);
-    free(p.slots);
+    free(p.members);
     free(p.in_columns);
     if (code) {
         retex_set_close(&plan->reduced);

@@ -12,7 +12,7 @@ typedef enum RetexReduceRule {
     RETEX_REDUCE_MEAN,      /* the mean over the block */
     RETEX_REDUCE_CENTRE,    /* the value in the middle of the block: what is not of a kind that has a mean */
     RETEX_REDUCE_FOOTPRINT, /* UV, spread or albedo of merged footprints */
-    RETEX_REDUCE_SLOTS,     /* light or weights of merged footprints */
+    RETEX_REDUCE_MEMBERS,     /* light or weights of merged footprints */
     RETEX_REDUCE_ORIGINAL   /* an original texture, which has a size of its own */
 } RetexReduceRule;
 
@@ -29,20 +29,20 @@ typedef struct RetexReduceColumn {
     int weights; /* of a mixture: which weights; RETEX_REDUCE_NONE: they are the radiance of terms */
     int channels;
     double value[3];                                  /* what it counts as light when footprints are merged */
-    int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* parts of the set and of the reduced one, by slot */
+    int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* parts of the set and of the reduced one, by member */
 } RetexReduceColumn;
 
-/* Footprints of one target and kind: its slots, among which the merged ones are distributed. */
+/* Footprints of one target and kind: its members, among which the merged ones are distributed. */
 typedef struct RetexReduceKind {
     int target;
     RetexFootprintKind kind;
     int count;
-    int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* footprints, by slot */
-    int albedo_of[RETEX_SHARES_MAX];                  /* the first slot that has the same albedo */
-    int nellipses, ellipses[RETEX_SHARES_MAX];        /* slots of merged footprints */
-    int map[RETEX_QUADRANTS]; /* slots of a pixel that is a parallelogram, by its quarters; all the same where it has
+    int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* footprints, by member */
+    int albedo_of[RETEX_SHARES_MAX];                  /* the first member that has the same albedo */
+    int nellipses, ellipses[RETEX_SHARES_MAX];        /* members of merged footprints */
+    int map[RETEX_QUADRANTS]; /* members of a pixel that is a parallelogram, by its quarters; all the same where it has
                                  none; RETEX_REDUCE_NONE: there is no such */
-    int nlight;               /* of a kind of one slot: the terms that have it as a factor */
+    int nlight;               /* of a kind of one member: the terms that have it as a factor */
     RetexReduceLight *light;
     int ncolumns;
     RetexReduceColumn *columns;

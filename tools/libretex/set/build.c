@@ -200,10 +200,10 @@ static int describe_part(RetexSet *set, const char *name, const char *letters, R
         return retex_fail(err, RETEX_EINVAL, "the set has a part %s already", name);
     if ((width == 0) != (height == 0))
         return retex_fail(err, RETEX_EINVAL, "part %s: %d x %d pixels are out of bounds", name, width, height);
-    const int status =
+    const int code =
         grow_array((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
-    if (status)
-        return status;
+    if (code)
+        return code;
     strcpy(part.name, name);
     strcpy(part.letters, letters);
     part.image.width = width ? width : set->width;
@@ -218,15 +218,15 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
                        int *index, RetexError *err)
 {
     RetexPart *part;
-    int status = describe_part(set, name, letters, type, width, height, &part, err);
+    int code = describe_part(set, name, letters, type, width, height, &part, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     const RetexImage shape = part->image;
     part->image = (RetexImage){0};
-    status = retex_image_alloc(&part->image, shape.width, shape.height, shape.channels, err);
-    if (status)
-        return status;
+    code = retex_image_alloc(&part->image, shape.width, shape.height, shape.channels, err);
+    if (code)
+        return code;
     if (index)
         *index = set->nparts;
     set->nparts++;
@@ -237,10 +237,10 @@ int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, R
                          int *index, RetexError *err)
 {
     RetexPart *part;
-    const int status = describe_part(set, name, letters, type, 0, 0, &part, err);
+    const int code = describe_part(set, name, letters, type, 0, 0, &part, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     part->store_image = image + 1;
     if (index)
         *index = set->nparts;
@@ -328,7 +328,7 @@ void retex_footprint_ellipse(const RetexSet *set, const RetexFootprint *f, size_
 
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)
 {
-    int status = 0;
+    int code = 0;
 
     if (footprint->target < 0 || footprint->target >= set->ntargets)
         return retex_fail(err, RETEX_EINVAL, "the footprint lies on target %d of %d", footprint->target, set->ntargets);
@@ -340,16 +340,16 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
     if (footprint->quadrant < 0 || footprint->quadrant > (channels == RETEX_AXES ? RETEX_QUADRANTS : 0))
         return retex_fail(err, RETEX_EINVAL, "the footprint is quadrant %d of a %s", footprint->quadrant,
                           channels == RETEX_AXES ? "parallelogram, which has 4" : "pixel without axes");
-    status = check_part(set, footprint->uv, 3, 1, "a footprint's UV", err);
-    if (!status)
-        status = check_part(set, footprint->spread, (size_t)channels, 1, "a footprint's spread", err);
-    if (!status)
-        status = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
-    if (!status)
-        status = grow_array((void **)&set->footprints, set->nfootprints, sizeof *set->footprints,
+    code = check_part(set, footprint->uv, 3, 1, "a footprint's UV", err);
+    if (!code)
+        code = check_part(set, footprint->spread, (size_t)channels, 1, "a footprint's spread", err);
+    if (!code)
+        code = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
+    if (!code)
+        code = grow_array((void **)&set->footprints, set->nfootprints, sizeof *set->footprints,
                             RETEX_SET_FOOTPRINTS_MAX, "footprints", err);
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (index)
         *index = set->nfootprints;
     set->footprints[set->nfootprints++] = *footprint;
@@ -399,23 +399,23 @@ static int check_role(const RetexSet *set, const RetexTerm *term, RetexError *er
 
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err)
 {
-    int status = RETEX_OK;
+    int code = RETEX_OK;
     if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS || retex_term_hits(term) > RETEX_MAX_HITS)
         return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, %d of them hits, not %d", RETEX_MAX_FACTORS,
                           RETEX_MAX_HITS, term->nfactors);
     if (term->noise_weight != 0 && !(term->noise_weight >= ldexpf(1, -RETEX_MAX_HITS) && term->noise_weight <= 1))
         return retex_fail(err, RETEX_EINVAL, "a term's weight in noise is %g, not 2^-%d to 1",
                           (double)term->noise_weight, RETEX_MAX_HITS);
-    for (int i = 0; i < term->nfactors && !status; i++)
-        status = check_factor(set, term->factors[i], err);
-    if (!status)
-        status = check_role(set, term, err);
-    if (!status)
-        status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
-    if (!status)
-        status = grow_array((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
-    if (status)
-        return status;
+    for (int i = 0; i < term->nfactors && !code; i++)
+        code = check_factor(set, term->factors[i], err);
+    if (!code)
+        code = check_role(set, term, err);
+    if (!code)
+        code = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
+    if (!code)
+        code = grow_array((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
+    if (code)
+        return code;
     if (index)
         *index = set->nterms;
     set->terms[set->nterms++] = *term;
@@ -488,9 +488,9 @@ int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index
         const int footprint = mixture->shares[i].footprint;
         if (footprint < 0 || footprint >= set->nfootprints)
             return retex_fail(err, RETEX_EINVAL, "a mixture refers to footprint %d of %d", footprint, set->nfootprints);
-        const int status = check_weight(set, mixture->shares[i].weight, "a mixture's weight", err);
-        if (status)
-            return status;
+        const int code = check_weight(set, mixture->shares[i].weight, "a mixture's weight", err);
+        if (code)
+            return code;
     }
     if (index)
         *index = set->nmixtures;

@@ -121,9 +121,9 @@ static int check_bands(const ExrSource *source, int part, const RetexExrSums *su
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
         const int end = y + RETEX_CHUNK_LINES < y1 ? y + RETEX_CHUNK_LINES : y1;
         uint32_t crc = CRC32_OF_NONE;
-        for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX && plan->request->channels[slot][0]; slot++) {
+        for (int to = 0; to < RETEX_EXR_LETTERS_MAX && plan->request->channels[to][0]; to++) {
             size_t bytes;
-            const uint32_t plane = retex_exr_sums_plane(plan, sums, slot, y, end, &bytes);
+            const uint32_t plane = retex_exr_sums_plane(plan, sums, to, y, end, &bytes);
             crc = retex_crc32_join(crc, plane, bytes);
         }
         if (crc != plan->request->bands[y / RETEX_CHUNK_LINES])
@@ -178,10 +178,10 @@ static int fail_chunk(const ExrReader *reader, const RetexExrPlan *plan, exr_res
         return retex_exr_fail_nonfinite(source->parts.exr, plan->request->part, &reader->scratch.bad, err);
     if (result == EXR_ERR_OUT_OF_MEMORY)
         return retex_exr_fail(source->parts.exr, result, err);
-    const int status =
+    const int code =
         retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated", retex_input_name(source->parts.input),
                    retex_exr_part_name(source->parts.exr, plan->request->part));
-    return retex_input_check(source->parts.input, status, err);
+    return retex_input_check(source->parts.input, code, err);
 }
 
 static int read_strip(ExrReader *reader, int part, int number, RetexError *err)

@@ -353,15 +353,15 @@ int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **
     if (!set && !samples)
         return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to describe");
     if (samples) {
-        const int status = retex_samples_are_sound(samples, err);
-        if (status)
-            return status;
+        const int code = retex_samples_are_sound(samples, err);
+        if (code)
+            return code;
         parts = calloc((size_t)samples->nimages + 1, sizeof *parts);
         if (!parts)
             return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
         retex_sample_part_names(samples, set, parts);
     }
-    const int status = retex_manifest_write(set, samples, parts, NULL, json, err);
+    const int code = retex_manifest_write(set, samples, parts, NULL, json, err);
     free(parts);
-    return status;
+    return code;
 }

@@ -10,12 +10,12 @@ void retex_reading_fail(Reading *reading, int code, const char *fmt, ...)
     char message[512];
     va_list arguments;
 
-    if (reading->status)
+    if (reading->code)
         return;
     va_start(arguments, fmt);
     vsnprintf(message, sizeof message, fmt, arguments);
     va_end(arguments);
-    reading->status = retex_fail(reading->err, code, "%s: the manifest %s", reading->name, message);
+    reading->code = retex_fail(reading->err, code, "%s: the manifest %s", reading->name, message);
 }
 
 void retex_reading_text(Reading *reading, const json_t *object, const char *key, char *out, size_t size)
@@ -125,5 +125,5 @@ int retex_reading_named(Reading *reading, const json_t *json, const char *key, c
     char name[RETEX_NAME_MAX] = "";
 
     retex_reading_text(reading, json, key, name, sizeof name);
-    return reading->status ? 0 : retex_reading_name(reading, name, what, name_of, count);
+    return reading->code ? 0 : retex_reading_name(reading, name, what, name_of, count);
 }

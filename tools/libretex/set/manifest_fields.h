@@ -10,7 +10,7 @@
 typedef struct Reading {
     const char *name; /* name of the file, for messages */
     RetexError *err;
-    int status;
+    int code;
     RetexBandSums *sums; /* or NULL */
 } Reading;
 

@@ -59,7 +59,7 @@ static void read_bands(Reading *reading, const json_t *part, int height)
 {
     const json_t *json = json_object_get(part, "bands");
 
-    if (reading->sums && !reading->status)
+    if (reading->sums && !reading->code)
         reading->sums->of[reading->sums->count++] = json ? parse_bands(reading, json, height) : NULL;
 }
 
@@ -81,7 +81,7 @@ static void read_part(Reading *reading, const json_t *json, RetexPart *part, cha
     retex_reading_text(reading, json, "crc32", hex, sizeof hex);
     part->image.width = retex_reading_integer(reading, json, "width", 1, RETEX_MAX_SIZE);
     part->image.height = retex_reading_integer(reading, json, "height", 1, RETEX_MAX_SIZE);
-    if (!reading->status && !retex_letters_are_valid(part->letters))
+    if (!reading->code && !retex_letters_are_valid(part->letters))
         retex_reading_fail(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
     part->image.channels = (int)strlen(part->letters);
     part->crc = (uint32_t)strtoul(hex, &end, 16);
@@ -102,11 +102,11 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
     set->parts = calloc(count ? count : 1, sizeof *set->parts);
     if (!set->parts)
         retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
-    for (size_t i = 0; i < count && !reading->status; i++) {
+    for (size_t i = 0; i < count && !reading->code; i++) {
         RetexPart *part = &set->parts[i];
         read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
         read_bands(reading, json_array_get(array, i), part->image.height);
-        if (reading->status)
+        if (reading->code)
             return;
         if (!retex_name_is_valid(part->name))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
@@ -114,7 +114,7 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
             retex_reading_fail(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
         set->nparts = (int)i + 1;
     }
-    if (!reading->status) {
+    if (!reading->code) {
         retex_reading_check_size(reading, set, 0, "parts");
         if (strcmp(set->parts[0].letters, "RGB") != 0)
             retex_reading_fail(reading, RETEX_EFORMAT, "has a first part that is no picture");
@@ -127,7 +127,7 @@ static void read_finishes(Reading *reading, const json_t *json, RetexTarget *tar
 
     target->nfinishes = (int)json_array_size(names);
     target->finish = retex_reading_integer(reading, json, "finish", 1, target->nfinishes);
-    for (int k = 0; k < target->nfinishes && !reading->status; k++) {
+    for (int k = 0; k < target->nfinishes && !reading->code; k++) {
         const char *name = json_string_value(json_array_get(names, (size_t)k));
         if (!name || !*name || strlen(name) >= sizeof target->finishes[k])
             retex_reading_fail(reading, RETEX_EFORMAT, "has a finish without a proper name");
@@ -152,7 +152,7 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
 
     retex_reading_text(reading, json, "name", target->name, sizeof target->name);
     retex_reading_text(reading, json, "idents", target->idents, sizeof target->idents);
-    if (!reading->status && !target->name[0])
+    if (!reading->code && !target->name[0])
         retex_reading_fail(reading, RETEX_EFORMAT, "has a target without a name");
     for (int i = 0; i < set->ntargets; i++)
         if (strcmp(set->targets[i].name, target->name) == 0)
@@ -181,7 +181,7 @@ static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
 {
     const json_t *array = retex_reading_array(reading, root, "targets", RETEX_MAX_TARGETS);
 
-    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+    for (size_t i = 0; i < json_array_size(array) && !reading->code; i++) {
         read_target(reading, json_array_get(array, i), set, &set->targets[i]);
         set->ntargets = (int)i + 1;
     }
@@ -191,7 +191,7 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
 {
     const json_t *array = retex_reading_array(reading, root, "footprints", RETEX_SET_FOOTPRINTS_MAX);
 
-    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+    for (size_t i = 0; i < json_array_size(array) && !reading->code; i++) {
         const json_t *json = json_array_get(array, i);
         RetexFootprint footprint = {
             .target = retex_reading_integer(reading, json, "target", 0, set->ntargets - 1),
@@ -202,7 +202,7 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         };
         if (json_object_get(json, "quadrant"))
             footprint.quadrant = retex_reading_integer(reading, json, "quadrant", 0, RETEX_QUADRANTS);
-        if (reading->status)
+        if (reading->code)
             return;
         if (json_object_get(json, "kind"))
             footprint.kind = (RetexFootprintKind)retex_reading_named(reading, json, "kind", "kind",
@@ -210,9 +210,9 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         retex_reading_check_scale(reading, set, footprint.uv, "uv");
         retex_reading_check_scale(reading, set, footprint.spread, "spread");
         retex_reading_check_scale(reading, set, footprint.albedo, "albedo");
-        if (!reading->status)
-            reading->status = retex_set_add_footprint(set, &footprint, NULL, reading->err);
-        if (!reading->status && !retex_set_footprint_scale(set, set->nfootprints - 1))
+        if (!reading->code)
+            reading->code = retex_set_add_footprint(set, &footprint, NULL, reading->err);
+        if (!reading->code && !retex_set_footprint_scale(set, set->nfootprints - 1))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
     }
 }
@@ -225,12 +225,12 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
         retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
         return;
     }
-    for (int i = 0; i < mixture.nshares && !reading->status; i++) {
+    for (int i = 0; i < mixture.nshares && !reading->code; i++) {
         const json_t *json = json_array_get(array, (size_t)i);
         mixture.shares[i].footprint = retex_reading_integer(reading, json, "footprint", 0, set->nfootprints - 1);
         mixture.shares[i].weight = retex_reading_weight(reading, set, json, "weight");
         retex_reading_check_scale(reading, set, mixture.shares[i].weight, "weight");
-        if (reading->status)
+        if (reading->code)
             return;
         const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
         const RetexFootprint *f = &set->footprints[mixture.shares[i].footprint];
@@ -239,8 +239,8 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }
-    if (!reading->status)
-        reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
+    if (!reading->code)
+        reading->code = retex_set_add_mixture(set, &mixture, NULL, reading->err);
 }
 
 static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
@@ -248,7 +248,7 @@ static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
     if (!json_object_get(root, "mixtures"))
         return;
     const json_t *array = retex_reading_array(reading, root, "mixtures", RETEX_MIXTURES_MAX);
-    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++)
+    for (size_t i = 0; i < json_array_size(array) && !reading->code; i++)
         read_mixture(reading, json_array_get(array, i), set);
 }
 
@@ -259,7 +259,7 @@ static uint32_t get_identity(Reading *reading, const json_t *json, const char *k
 
     retex_reading_text(reading, json, key, hex, sizeof hex);
     unsigned long id = strtoul(hex, &end, 16);
-    if (!reading->status && (end != hex + 8 || *end))
+    if (!reading->code && (end != hex + 8 || *end))
         retex_reading_fail(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
     return (uint32_t)id;
 }
@@ -310,20 +310,20 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (json_object_get(root, "further"))
         read_further(reading, json_object_get(root, "further"), set);
     set->unit = json_object_get(root, "unit") ? retex_reading_real(reading, json_object_get(root, "unit"), "unit") : 1;
-    if (!reading->status && !(set->unit > 0))
+    if (!reading->code && !(set->unit > 0))
         retex_reading_fail(reading, RETEX_EFORMAT, "has a scene unit of 0 metres or less");
     if (json_object_get(root, "denoised"))
         set->denoised = retex_reading_boolean(reading, json_object_get(root, "denoised"), "denoised");
     set->strict_paper = retex_reading_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
-    if (!reading->status)
+    if (!reading->code)
         read_parts(reading, root, set);
-    if (!reading->status)
+    if (!reading->code)
         read_targets(reading, root, set);
-    if (!reading->status)
+    if (!reading->code)
         read_footprints(reading, root, set);
-    if (!reading->status)
+    if (!reading->code)
         read_mixtures(reading, root, set);
-    if (!reading->status)
+    if (!reading->code)
         retex_reading_terms(reading, root, set);
 }
 
@@ -354,14 +354,14 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     read_sample_use(reading, json, samples, index);
     if (json_is_null(json_part))
         read_bands(reading, json_part, 0);
-    if (json_is_null(json_part) || reading->status)
+    if (json_is_null(json_part) || reading->code)
         return;
     read_part(reading, json_part, &part, parts[index].name, sizeof parts[index].name);
     read_bands(reading, json_part, part.image.height);
-    if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
+    if (!reading->code && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
                              part.image.width > samples->width || part.image.height > samples->height))
         retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
-    if (!reading->status && !parts[index].name[0])
+    if (!reading->code && !parts[index].name[0])
         retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image without a name");
     for (int i = 0; i < index; i++)
         if (parts[index].name[0] && strcmp(parts[i].name, parts[index].name) == 0)
@@ -377,7 +377,7 @@ static void read_reference(Reading *reading, const json_t *json, RetexSetReferen
     retex_reading_text(reading, json, "path", reference->path, sizeof reference->path);
     reference->crc = get_identity(reading, json, "crc32");
     reference->bytes = bytes > 0 ? (uint64_t)bytes : 0;
-    if (!reading->status && (reference->path[0] != '/' || !reference->bytes))
+    if (!reading->code && (reference->path[0] != '/' || !reference->bytes))
         retex_reading_fail(reading, RETEX_EFORMAT, "refers to a set without an absolute path or a size");
 }
 
@@ -406,7 +406,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
         retex_reading_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
         retex_reading_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
     }
-    for (int i = 0; i < samples->nimages && !reading->status; i++)
+    for (int i = 0; i < samples->nimages && !reading->code; i++)
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
 }
 
@@ -438,7 +438,7 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
     char kind[32] = "";
 
     check_version(reading, root, sum);
-    if (reading->status)
+    if (reading->code)
         return;
     retex_reading_text(reading, root, "kind", kind, sizeof kind);
     const int stream = strcmp(kind, "stream") == 0;
@@ -448,9 +448,9 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
     const int height = retex_reading_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
     if (!has_set && !has_samples)
         retex_reading_fail(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
-    if (!reading->status && has_set)
+    if (!reading->code && has_set)
         read_set(reading, root, width, height, set);
-    if (!reading->status && has_samples)
+    if (!reading->code && has_samples)
         read_samples(reading, json_object_get(root, "samples"), width, height, samples, sample_parts);
 }
 
@@ -484,11 +484,11 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
     json_decref(root);
     if (*set)
         (*set)->file_sum = retex_manifest_own_sum(json);
-    if (reading.status) {
+    if (reading.code) {
         retex_set_close(set);
         retex_samples_close(samples);
         free(*sample_parts);
         *sample_parts = NULL;
     }
-    return reading.status;
+    return reading.code;
 }

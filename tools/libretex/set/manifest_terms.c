@@ -34,7 +34,7 @@ static RetexFactor read_factor(Reading *reading, const json_t *json, const Retex
         factor.index = retex_set_find_parameter(set, name);
         if (factor.index < 0)
             retex_reading_fail(reading, RETEX_EFORMAT, "refers to a parameter that is not there");
-    } else if (!reading->status) {
+    } else if (!reading->code) {
         const int count = factor.kind == RETEX_FACTOR_MIXTURE ? set->nmixtures : set->nfootprints;
         factor.index = retex_reading_integer(reading, json, key, 0, count - 1);
         if (json_object_get(json, "quantity"))
@@ -53,14 +53,14 @@ static void read_term(Reading *reading, const json_t *json, RetexSet *set)
                       .radiance = retex_reading_part(reading, set, json, "radiance", 3, 0),
                       .nfactors = (int)json_array_size(factors)};
 
-    for (int f = 0; f < term.nfactors && !reading->status; f++)
+    for (int f = 0; f < term.nfactors && !reading->code; f++)
         term.factors[f] = read_factor(reading, json_array_get(factors, (size_t)f), set);
     if (json_object_get(json, "noise_weight"))
         term.noise_weight = (float)retex_reading_real(reading, json_object_get(json, "noise_weight"), "noise_weight");
-    if (!reading->status)
+    if (!reading->code)
         retex_reading_check_size(reading, set, term.radiance, "radiance");
-    if (!reading->status)
-        reading->status = retex_set_add_term(set, &term, NULL, reading->err);
+    if (!reading->code)
+        reading->code = retex_set_add_term(set, &term, NULL, reading->err);
 }
 
 static void read_color(Reading *reading, const json_t *json, const char *key, float color[3])
@@ -78,7 +78,7 @@ static void read_finishes(Reading *reading, const json_t *json, const RetexSet *
     retex_reading_text(reading, json, "lamp", parameter->lamp, sizeof parameter->lamp);
     if (json_array_size(numbers) != (size_t)set->ntargets)
         retex_reading_fail(reading, RETEX_EFORMAT, "has \"finishes\" that are not as many as its targets");
-    for (int t = 0; t < set->ntargets && !reading->status; t++) {
+    for (int t = 0; t < set->ntargets && !reading->code; t++) {
         const double number = retex_reading_real(reading, json_array_get(numbers, (size_t)t), "finishes");
         if (!(number >= 0 && number <= set->targets[t].nfinishes && number == (int)number))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a finish that its target has not");
@@ -101,8 +101,8 @@ static void read_parameter(Reading *reading, const json_t *json, RetexSet *set)
         read_color(reading, json, "kept", parameter.kept);
     if (json_object_get(json, "finishes"))
         read_finishes(reading, json, set, &parameter);
-    if (!reading->status)
-        reading->status = retex_set_add_parameter(set, &parameter, NULL, reading->err);
+    if (!reading->code)
+        reading->code = retex_set_add_parameter(set, &parameter, NULL, reading->err);
 }
 
 void retex_reading_terms(Reading *reading, const json_t *root, RetexSet *set)
@@ -110,8 +110,8 @@ void retex_reading_terms(Reading *reading, const json_t *root, RetexSet *set)
     const json_t *parameters = retex_reading_array(reading, root, "parameters", RETEX_PARAMETERS_MAX);
     const json_t *terms = retex_reading_array(reading, root, "terms", RETEX_SET_TERMS_MAX);
 
-    for (size_t i = 0; i < json_array_size(parameters) && !reading->status; i++)
+    for (size_t i = 0; i < json_array_size(parameters) && !reading->code; i++)
         read_parameter(reading, json_array_get(parameters, i), set);
-    for (size_t i = 0; i < json_array_size(terms) && !reading->status; i++)
+    for (size_t i = 0; i < json_array_size(terms) && !reading->code; i++)
         read_term(reading, json_array_get(terms, i), set);
 }

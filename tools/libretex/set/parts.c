@@ -65,7 +65,7 @@ static void renumber(void *context, RetexPartUse use, int user, int *part)
     (void)may_lack;
 }
 
-int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err)
+int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *in_view, RetexError *err)
 {
     int *place = calloc((size_t)set->nparts + 1, sizeof *place);
 
@@ -82,8 +82,8 @@ int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kep
         return retex_fail(err, RETEX_ENOMEM, "no memory to write a set");
     }
     for (int i = 0; i < set->nparts; i++) {
-        place[i] = kept[i] ? view->set.nparts : -1;
-        if (kept[i]) {
+        place[i] = in_view[i] ? view->set.nparts : -1;
+        if (in_view[i]) {
             view->source[view->set.nparts] = i;
             view->set.parts[view->set.nparts++] = set->parts[i];
         }

@@ -28,9 +28,9 @@ typedef struct RetexSetView {
     int *source; /* part i of the view is part source[i] of the set */
 } RetexSetView;
 
-/* kept[i]: 1 if part i is in the view. Targets and footprints refer to -1 where their part is not; parts of terms and
- * mixtures must be in it. */
-int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err);
+/* in_view[i]: 1 if part i is in it. Targets and footprints refer to -1 where their part is not; parts of terms and
+ * mixtures must be there. */
+int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *in_view, RetexError *err);
 void retex_set_view_free(RetexSetView *view);
 
 /* Make an image a factor of a term that has all others: the first where it is smaller than the picture, else the

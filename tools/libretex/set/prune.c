@@ -15,7 +15,7 @@
 typedef struct Pruning {
     RetexSet *set;
     const char *empty;
-    char kept[RETEX_SET_PARTS_MAX];
+    char stays[RETEX_SET_PARTS_MAX];
     int footprints[RETEX_SET_FOOTPRINTS_MAX]; /* the new number of each, or GONE */
     RetexFactor mixtures[RETEX_MIXTURES_MAX]; /* what each becomes; index GONE: nothing */
 } Pruning;
@@ -23,7 +23,7 @@ typedef struct Pruning {
 static void drop(Pruning *p, int part)
 {
     if (part >= 0)
-        p->kept[part] = 0;
+        p->stays[part] = 0;
 }
 
 static void prune_footprints(Pruning *p)
@@ -71,7 +71,7 @@ static void prune_mixtures(Pruning *p)
         RetexMixture *mixture = &set->mixtures[m];
         prune_shares(p, mixture);
         for (int k = 0; k < mixture->nshares; k++)
-            p->kept[mixture->shares[k].weight] |=
+            p->stays[mixture->shares[k].weight] |=
                 mixture->nshares > 1 ||
                 set->footprints[mixture->shares[k].footprint].kind == RETEX_FOOTPRINT_INTERREFLECTION;
         p->mixtures[m] = mixture->nshares == 1 ? retex_factor(RETEX_FACTOR_FOOTPRINT, mixture->shares[0].footprint)
@@ -132,14 +132,14 @@ static void prune_noise(Pruning *p)
 
     for (int i = 1; i < set->nparts; i++)
         if (retex_name_is_noise(set->parts[i].name))
-            p->kept[i] = 0;
+            p->stays[i] = 0;
     for (int t = 0; t < set->nterms || (t == 0 && !set->nterms); t++) {
         if (set->nterms && set->terms[t].role == RETEX_ROLE_PICTURE)
             continue;
         retex_signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);
         const int part = retex_set_find_part(set, name);
         if (part > 0)
-            p->kept[part] = 1;
+            p->stays[part] = 1;
     }
 }
 
@@ -147,13 +147,13 @@ void retex_set_prune(RetexSet *set, const char *empty)
 {
     Pruning p = {.set = set, .empty = empty};
 
-    memset(p.kept, 1, sizeof p.kept);
+    memset(p.stays, 1, sizeof p.stays);
     prune_footprints(&p);
     prune_mixtures(&p);
     prune_terms(&p);
     prune_noise(&p);
     for (int i = set->nparts - 1; i > 0; i--)
-        if (!p.kept[i] && !retex_part_is_used(set, i)) /* a part may have been shared */
+        if (!p.stays[i] && !retex_part_is_used(set, i)) /* a part may have been shared */
             retex_set_remove_part(set, i);
 }
 

@@ -46,7 +46,7 @@ static void source_close(Source *source)
 static int source_describe(Source *source, RetexError *err)
 {
     const char *name = retex_input_name(source->input);
-    int status;
+    int code;
 
     if (retex_input_size(source->input) == 0)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
@@ -56,18 +56,18 @@ static int source_describe(Source *source, RetexError *err)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
                           "retex-render goes on from them with --resume");
     if (!retex_exr_probe(source->input)) {
-        status = retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
-        return retex_input_check(source->input, status, err);
+        code = retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
+        return retex_input_check(source->input, code, err);
     }
-    status = retex_exr_open(&source->exr, source->input, err);
-    if (status)
-        return status;
+    code = retex_exr_open(&source->exr, source->input, err);
+    if (code)
+        return code;
     const char *json = retex_exr_attribute(source->exr, 0, RETEX_MANIFEST_ATTRIBUTE);
     if (!json)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (no `%s` attribute)", name, RETEX_MANIFEST_ATTRIBUTE);
-    status = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, &source->sums, err);
-    if (status)
-        return status;
+    code = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, &source->sums, err);
+    if (code)
+        return code;
     const size_t most =
         (size_t)(source->set ? source->set->nparts : 0) + (size_t)(source->samples ? source->samples->nimages : 0);
     source->requests = calloc(most + 1, sizeof *source->requests);
@@ -116,25 +116,25 @@ static int request_part(Source *source, const char *name, const char *letters, R
 
 static int request_set(Source *source, RetexError *err)
 {
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < source->set->nparts && !status; i++) {
+    for (int i = 0; i < source->set->nparts && !code; i++) {
         RetexPart *part = &source->set->parts[i];
-        status = request_part(source, part->name, part->letters, part->type, part->crc, i, &part->image, err);
+        code = request_part(source, part->name, part->letters, part->type, part->crc, i, &part->image, err);
     }
-    return status;
+    return code;
 }
 
 static int request_samples(Source *source, RetexError *err)
 {
     const int first = source->set ? source->set->nparts : 0;
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < source->samples->nimages && !status; i++)
+    for (int i = 0; i < source->samples->nimages && !code; i++)
         if (source->names[i].name[0])
-            status = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, source->names[i].crc, first + i,
+            code = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, source->names[i].crc, first + i,
                                   &source->samples->images[i], err);
-    return status;
+    return code;
 }
 
 static int check_stored(const Source *source, RetexError *err)
@@ -157,62 +157,62 @@ static int check_memory(const Source *source, RetexError *err)
 /* Reads all requested parts and compares their checksums. */
 static int read_requests(Source *source, int nthreads, RetexError *err)
 {
-    const int status = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
+    const int code = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
 
-    for (int i = 0; i < source->nrequests && !status; i++) {
+    for (int i = 0; i < source->nrequests && !code; i++) {
         const RetexExrRequest *request = &source->requests[i];
         if (request->crc != request->expected)
             return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong",
                               retex_input_name(source->input), retex_exr_part_name(source->exr, request->part));
     }
-    return status;
+    return code;
 }
 
 /* Allocates the requested images and reads their pixels. */
 static int read_pixels(Source *source, int nthreads, RetexError *err)
 {
-    int status = check_memory(source, err);
+    int code = check_memory(source, err);
 
-    for (int i = 0; i < source->nrequests && !status; i++) {
+    for (int i = 0; i < source->nrequests && !code; i++) {
         RetexImage *image = source->requests[i].image;
         const RetexImage shape = *image;
-        status = retex_image_alloc(image, shape.width, shape.height, shape.channels, err);
+        code = retex_image_alloc(image, shape.width, shape.height, shape.channels, err);
     }
-    return status ? status : read_requests(source, nthreads, err);
+    return code ? code : read_requests(source, nthreads, err);
 }
 
 static int request_samples_stored(Source *source, RetexError *err)
 {
     RetexSamples *samples = source->samples;
     const int first = source->nrequests;
-    const int status = request_samples(source, err);
+    const int code = request_samples(source, err);
 
-    for (int i = 0, next = first; i < samples->nimages && !status; i++)
+    for (int i = 0, next = first; i < samples->nimages && !code; i++)
         samples->footprints[i].source_image = source->names[i].name[0] ? ++next : 0;
-    return status;
+    return code;
 }
 
 /* Makes the open file the source of the set's parts, and of the samples if they are wanted. */
 static int keep_open(Source *source, int with_samples, int nthreads, RetexError *err)
 {
     RetexSetSource *opened;
-    int status = source->set ? request_set(source, err) : 0;
+    int code = source->set ? request_set(source, err) : 0;
 
-    if (!status && with_samples)
-        status = request_samples_stored(source, err);
-    if (!status)
-        status = check_stored(source, err);
-    if (status)
-        return status;
+    if (!code && with_samples)
+        code = request_samples_stored(source, err);
+    if (!code)
+        code = check_stored(source, err);
+    if (code)
+        return code;
     const RetexExrSourceParts parts = {source->exr,       source->input, source->requests,
                                        source->nrequests, source->sums,  nthreads};
     source->requests = NULL;
     source->input = NULL;
     source->exr = NULL;
     source->sums = (RetexBandSums){0};
-    status = retex_exr_source_open(&opened, &parts, err);
-    if (status)
-        return status;
+    code = retex_exr_source_open(&opened, &parts, err);
+    if (code)
+        return code;
     if (source->set)
         source->set->source = opened;
     if (with_samples)
@@ -223,28 +223,28 @@ static int keep_open(Source *source, int with_samples, int nthreads, RetexError 
 /* Reads the set, the samples, or both into memory. */
 static int read_whole(Source *source, int with_set, int with_samples, int nthreads, RetexError *err)
 {
-    int status = with_samples ? request_samples(source, err) : 0;
+    int code = with_samples ? request_samples(source, err) : 0;
 
-    if (!status && with_set)
-        status = request_set(source, err);
-    return status ? status : read_pixels(source, nthreads, err);
+    if (!code && with_set)
+        code = request_set(source, err);
+    return code ? code : read_pixels(source, nthreads, err);
 }
 
 static int read_described(Source *source, RetexSet **set, RetexSamples **samples, int open, int nthreads,
                           RetexError *err)
 {
-    int status = source_describe(source, err);
+    int code = source_describe(source, err);
 
-    if (status)
-        return status;
+    if (code)
+        return code;
     const int with_set = set && source->set, with_samples = samples && source->samples;
     if (!with_set && !with_samples)
         return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
                           source->set ? "a set" : "samples", source->set ? "samples" : "set");
-    status = open ? keep_open(source, with_samples, nthreads, err)
+    code = open ? keep_open(source, with_samples, nthreads, err)
                   : read_whole(source, with_set, with_samples, nthreads, err);
-    if (status)
-        return status;
+    if (code)
+        return code;
     if (set) {
         *set = source->set;
         source->set = NULL;
@@ -260,26 +260,26 @@ int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **sample
                        RetexError *err)
 {
     Source source = {.input = *input};
-    const int status = read_described(&source, set, samples, open, nthreads, err);
+    const int code = read_described(&source, set, samples, open, nthreads, err);
 
     *input = source.input; /* NULL where the file stays open as the source */
     source.input = NULL;
     source_close(&source);
-    return status;
+    return code;
 }
 
 static int check_described(Source *source, int nthreads, RetexError *err)
 {
-    int status = source_describe(source, err);
+    int code = source_describe(source, err);
 
-    if (!status && source->set)
-        status = request_set(source, err);
-    if (!status && source->samples)
-        status = request_samples(source, err);
-    if (!status)
-        status = check_memory(source, err);
-    if (status)
-        return status;
+    if (!code && source->set)
+        code = request_set(source, err);
+    if (!code && source->samples)
+        code = request_samples(source, err);
+    if (!code)
+        code = check_memory(source, err);
+    if (code)
+        return code;
     for (int i = 0; i < source->nrequests; i++)
         source->requests[i].image = NULL; /* only the checksum is wanted */
     return read_requests(source, nthreads, err);
@@ -288,9 +288,9 @@ static int check_described(Source *source, int nthreads, RetexError *err)
 int retex_set_check_exr(RetexInput *input, int nthreads, RetexError *err)
 {
     Source source = {.input = input};
-    const int status = check_described(&source, nthreads, err);
+    const int code = check_described(&source, nthreads, err);
 
     source.input = NULL;
     source_close(&source);
-    return status;
+    return code;
 }

@@ -79,11 +79,11 @@ static int stored_row(const float **row, Backing *backing, int index, int image,
 {
     const size_t length = (size_t)shape->width * (size_t)shape->channels;
     StoredBand *band = &backing->bands[index];
-    const int number = y / RETEX_BAND_ROWS, kept = band->pixels && band->number == number;
+    const int number = y / RETEX_BAND_ROWS, is_loaded = band->pixels && band->number == number;
     int code = RETEX_OK;
     if (!band->pixels && !(band->pixels = malloc(RETEX_BAND_ROWS * length * sizeof *band->pixels)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
-    if (!kept)
+    if (!is_loaded)
         code = retex_band_store_load_band(backing->store, image, number, band->pixels, err);
     band->number = code ? -1 : number;
     *row = band->pixels + length * (size_t)(y % RETEX_BAND_ROWS);

@@ -18,7 +18,7 @@
 typedef struct Choice {
     const RetexSet *set;
     const RetexSamples *samples;
-    char *kept;
+    char *in_view;
 } Choice;
 
 /* Whether a factor of quantity FURTHER, which is relative to the original albedo, is of the footprint. */
@@ -42,17 +42,17 @@ static void keep_part(void *context, RetexPartUse use, int user, int *part)
     const Choice *c = context;
     const int of_footprint = use == RETEX_PART_UV || use == RETEX_PART_SPREAD || use == RETEX_PART_ALBEDO;
     const int sampled = of_footprint && retex_samples_have(c->samples, user);
-    c->kept[*part] |= use != RETEX_PART_ORIGINAL &&
+    c->in_view[*part] |= use != RETEX_PART_ORIGINAL &&
                       (!sampled || (use == RETEX_PART_ALBEDO && has_further(c->set, user)));
 }
 
 /* Decides which parts are written. With samples only those that recombination needs: the picture, the terms, and
  * footprints that have no sample, so that another target can be sampled further down the pipe. */
-static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
+static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *in_view)
 {
-    Choice choice = {set, samples, kept};
-    memset(kept, !samples, (size_t)set->nparts);
-    kept[0] = 1;
+    Choice choice = {set, samples, in_view};
+    memset(in_view, !samples, (size_t)set->nparts);
+    in_view[0] = 1;
     if (samples)
         retex_set_visit_const_parts(set, keep_part, &choice);
 }
@@ -186,18 +186,18 @@ static int add_part_in_source(Writing *w, RetexExrPart *exr, int part, int footp
 /* Lists all parts with the place of their pixels, after copying those of another open file. */
 static int list_parts(Writing *w, RetexError *err)
 {
-    int status = 0;
+    int code = 0;
 
-    for (int i = 0; i < w->view.set.nparts && !status; i++) {
+    for (int i = 0; i < w->view.set.nparts && !code; i++) {
         const RetexPart *part = &w->view.set.parts[i];
         RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
         exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
         if (part->store_image)
             exr->store = w->whole->store, exr->store_image = part->store_image - 1;
         else if (!part->image.pixels)
-            status = add_part_in_source(w, exr, w->view.source[i], -1, err);
+            code = add_part_in_source(w, exr, w->view.source[i], -1, err);
     }
-    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+    for (int i = 0; w->samples && i < w->samples->nimages && !code; i++) {
         const RetexSamples *samples = w->samples;
         if (!w->names[i].name[0])
             continue;
@@ -206,11 +206,11 @@ static int list_parts(Writing *w, RetexError *err)
         if (samples->footprints[i].store_image)
             exr->store = samples->store, exr->store_image = samples->footprints[i].store_image - 1;
         else if (!samples->images[i].pixels)
-            status = add_part_in_source(w, exr, -1, i, err);
+            code = add_part_in_source(w, exr, -1, i, err);
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
-    return status ? status : retex_staging_fill(&w->staging, w->whole, w->samples, w->nthreads, err);
+    return code ? code : retex_staging_fill(&w->staging, w->whole, w->samples, w->nthreads, err);
 }
 
 static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
@@ -224,25 +224,25 @@ static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part
 /* Copies the checksums to where the manifest takes them from. */
 static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *err)
 {
-    int next = 0, status = 0;
+    int next = 0, code = 0;
 
     w->sums.of =
         calloc((size_t)w->view.set.nparts + (size_t)(w->samples ? w->samples->nimages : 0) + 1, sizeof *w->sums.of);
     if (!w->sums.of)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
-    for (int i = 0; i < w->view.set.nparts && !status; i++, next++) {
+    for (int i = 0; i < w->view.set.nparts && !code; i++, next++) {
         w->view.set.parts[i].crc = w->parts[next].crc;
-        status = keep_band_sums(w, encoding, next, err);
+        code = keep_band_sums(w, encoding, next, err);
     }
-    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+    for (int i = 0; w->samples && i < w->samples->nimages && !code; i++) {
         if (!w->names[i].name[0]) {
             w->sums.of[w->sums.count++] = NULL;
             continue;
         }
         w->names[i].crc = w->parts[next].crc;
-        status = keep_band_sums(w, encoding, next++, err);
+        code = keep_band_sums(w, encoding, next++, err);
     }
-    return status;
+    return code;
 }
 
 /* Encodes the parts and writes the file. */
@@ -251,46 +251,46 @@ static int write_parts(Writing *w, RetexError *err)
     RetexSet *set = w->whole ? &w->view.set : NULL;
     RetexExrEncoding *encoding = NULL;
     char *json = NULL;
-    int status = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
+    int code = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
 
-    if (!status)
-        status = keep_sums(w, encoding, err);
-    if (!status)
-        status = retex_manifest_write(set, w->samples, w->names, &w->sums, &json, err);
-    if (!status)
-        status = retex_exr_write(encoding, w->width, w->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
+    if (!code)
+        code = keep_sums(w, encoding, err);
+    if (!code)
+        code = retex_manifest_write(set, w->samples, w->names, &w->sums, &json, err);
+    if (!code)
+        code = retex_exr_write(encoding, w->width, w->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
     retex_exr_encoding_free(&encoding);
     free(json);
-    return status;
+    return code;
 }
 
 static int check_written(const RetexSet *set, const RetexSamples *samples, RetexError *err)
 {
-    int status = 0;
+    int code = 0;
 
     if (!set && !samples)
         return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to write");
     if (set)
-        status = check_set(set, err);
-    if (!status && samples)
-        status = retex_samples_are_sound(samples, err);
-    if (!status && set && samples)
-        status = retex_samples_check(samples, set, err);
-    return status;
+        code = check_set(set, err);
+    if (!code && samples)
+        code = retex_samples_are_sound(samples, err);
+    if (!code && set && samples)
+        code = retex_samples_check(samples, set, err);
+    return code;
 }
 
 static int open_writing(Writing *w, RetexError *err)
 {
     const int nsamples = w->samples ? w->samples->nimages : 0;
-    char kept[RETEX_SET_PARTS_MAX];
-    int status = 0;
+    char in_view[RETEX_SET_PARTS_MAX];
+    int code = 0;
 
     if (w->whole) {
-        choose_parts(w->whole, w->samples, kept);
-        status = retex_set_view_make(&w->view, w->whole, kept, err);
+        choose_parts(w->whole, w->samples, in_view);
+        code = retex_set_view_make(&w->view, w->whole, in_view, err);
     }
-    if (status)
-        return status;
+    if (code)
+        return code;
     const int most = w->view.set.nparts + nsamples + 1;
     w->parts = calloc((size_t)most, sizeof *w->parts);
     w->names = calloc((size_t)nsamples + 1, sizeof *w->names);
@@ -299,8 +299,8 @@ static int open_writing(Writing *w, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
     if (w->samples)
         retex_sample_part_names(w->samples, w->whole, w->names);
-    status = retex_image_alloc(&w->blank, 1, 1, 3, err);
-    return status ? status : retex_staging_open(&w->staging, most, err);
+    code = retex_image_alloc(&w->blank, 1, 1, 3, err);
+    return code ? code : retex_staging_open(&w->staging, most, err);
 }
 
 static void close_writing(Writing *w)
@@ -318,23 +318,23 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
                     int nthreads, RetexError *err)
 {
     RetexStoreParams own = RETEX_STORE_INIT;
-    int status = RETEX_PARAMS_COPY(&own, params, err);
+    int code = RETEX_PARAMS_COPY(&own, params, err);
 
-    if (!status)
-        status = check_written(set, samples, err);
-    if (status)
-        return status;
+    if (!code)
+        code = check_written(set, samples, err);
+    if (code)
+        return code;
     Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = nthreads};
     w.compress = !own.compress ? RETEX_EXR_PLAIN : strcmp(path, "-") == 0 ? RETEX_EXR_QUICKLY : RETEX_EXR_SMALL;
     w.width = set ? set->width : samples->width;
     w.height = set ? set->height : samples->height;
-    status = open_writing(&w, err);
-    if (!status)
-        status = list_parts(&w, err);
-    if (!status)
-        status = write_parts(&w, err);
-    for (int i = 0; i < w.view.set.nparts && !status; i++)
+    code = open_writing(&w, err);
+    if (!code)
+        code = list_parts(&w, err);
+    if (!code)
+        code = write_parts(&w, err);
+    for (int i = 0; i < w.view.set.nparts && !code; i++)
         set->parts[w.view.source[i]].crc = w.view.set.parts[i].crc;
     close_writing(&w);
-    return status;
+    return code;
 }

@@ -39,7 +39,7 @@ static int stream_open(Stream *s, const RetexWebClass *c)
     const RetexImage *uv = &s->set->parts[s->set->footprints[c->footprints[0]].uv].image;
     s->pixels = (size_t)uv->width * (size_t)uv->height;
     const size_t mask = ((size_t)uv->width + 7) / 8 * (size_t)uv->height;
-    const size_t planes = (size_t)(PLANES + c->nslots) * (PLANE_HEAD + s->pixels * sizeof(int32_t));
+    const size_t planes = (size_t)(PLANES + c->nweightings) * (PLANE_HEAD + s->pixels * sizeof(int32_t));
     s->data = malloc((size_t)c->nfootprints * (mask + planes));
     s->present = malloc(s->pixels);
     s->shift = malloc(s->pixels);
@@ -125,7 +125,7 @@ static int put_footprint(Stream *s, const RetexWebClass *c, int index, RetexErro
         numbers_of(s->numbers, s, f->uv, k);
         put_plane(s, uv, 32, 1);
     }
-    for (int k = 0; k < c->nslots; k++)
+    for (int k = 0; k < c->nweightings; k++)
         if (c->weights[k][index] >= 0) {
             const RetexPackPart *weight = &s->packed[c->weights[k][index]];
             if (weight->codec != RETEX_PACK_ZERO && weight->maps[0].kind != RETEX_PACK_MAP_LINEAR)
@@ -167,7 +167,7 @@ json_t *retex_web_footprints_describe(const RetexPackPart *packed, const RetexSe
         const RetexFootprint *f = &set->footprints[c->footprints[i]];
         const RetexPackPart *spread = &packed[f->spread];
         json_t *weights = json_array();
-        for (int k = 0; k < c->nslots; k++) {
+        for (int k = 0; k < c->nweightings; k++) {
             const int part = c->weights[k][i];
             retex_json_add(&weights, part == RETEX_WEB_WEIGHT_ONE    ? json_string("one")
                                      : part == RETEX_WEB_WEIGHT_NONE ? json_null()

@@ -48,17 +48,17 @@ static int add_footprint(RetexWebModel *model, const RetexSet *set, int number, 
     return 0;
 }
 
-/* The slot of these weights, which is added if it is new; -1 if there are too many. */
-static int slot_of(RetexWebClass *c, const int weights[RETEX_SHARES_MAX])
+/* The number of these weights, which is added if it is new; -1 if there are too many. */
+static int weighting_of(RetexWebClass *c, const int weights[RETEX_SHARES_MAX])
 {
     const size_t bytes = (size_t)c->nfootprints * sizeof *weights;
-    for (int i = 0; i < c->nslots; i++)
+    for (int i = 0; i < c->nweightings; i++)
         if (memcmp(c->weights[i], weights, bytes) == 0)
             return i;
-    if (c->nslots == RETEX_WEB_SLOTS)
+    if (c->nweightings == RETEX_WEB_WEIGHTINGS)
         return -1;
-    memcpy(c->weights[c->nslots], weights, bytes);
-    return c->nslots++;
+    memcpy(c->weights[c->nweightings], weights, bytes);
+    return c->nweightings++;
 }
 
 /* ---- mixtures ---- */
@@ -96,13 +96,13 @@ static int mixture_of(RetexWebModel *model, const RetexSet *set, RetexFactor fac
         }
         if (!any)
             continue;
-        const int slot = slot_of(c, weights);
-        if (slot < 0)
+        const int weighting = weighting_of(c, weights);
+        if (weighting < 0)
             return refuse(err, "footprints have more than two weights");
         if (m->nclasses && model->classes[m->classes[0].index].scale != c->scale)
             return refuse(err, "a mixture has several sizes");
         m->classes[m->nclasses].index = i;
-        m->classes[m->nclasses++].slot = slot;
+        m->classes[m->nclasses++].weighting = weighting;
     }
     return m->nclasses ? model->nmixtures++ : refuse(err, "a mixture has no footprints");
 }

@@ -6,7 +6,7 @@
 #include <retex/set.h>
 
 enum {
-    RETEX_WEB_SLOTS = 2,        /* most weights of a footprint */
+    RETEX_WEB_WEIGHTINGS = 2,        /* most weights of a footprint */
     RETEX_WEB_WEIGHT_NONE = -1, /* in place of a part: 0 */
     RETEX_WEB_WEIGHT_ONE = -2,  /* 1 */
     RETEX_WEB_CLASSES_MAX = 4 * RETEX_MAX_TARGETS,
@@ -20,7 +20,7 @@ typedef struct RetexWebClass {
     RetexFootprintKind kind;
     int has_axes;
     int nfootprints, footprints[RETEX_SHARES_MAX];
-    int nslots, weights[RETEX_WEB_SLOTS][RETEX_SHARES_MAX]; /* parts, or RETEX_WEB_WEIGHT_… */
+    int nweightings, weights[RETEX_WEB_WEIGHTINGS][RETEX_SHARES_MAX]; /* parts, or RETEX_WEB_WEIGHT_… */
 } RetexWebClass;
 
 /* A mixture of all footprints of one class or of several, by one of their weights each. */
@@ -28,7 +28,7 @@ typedef struct RetexWebMixture {
     int nclasses;
     RetexFactor factor; /* of the set */
     struct {
-        int index, slot;
+        int index, weighting;
     } classes[RETEX_WEB_CLASSES_MAX];
 } RetexWebMixture;
 

@@ -483,7 +483,7 @@ static void describe_terms(json_t **object, const Web *web)
         const RetexWebMixture *m = &web->model.mixtures[i];
         json_t *mixture = json_array();
         for (int k = 0; k < m->nclasses; k++)
-            retex_json_add(&mixture, json_pack("[i,i]", m->classes[k].index, m->classes[k].slot));
+            retex_json_add(&mixture, json_pack("[i,i]", m->classes[k].index, m->classes[k].weighting));
         retex_json_add(&mixtures, mixture);
     }
     for (int i = 0; i < web->model.ngroups; i++) {

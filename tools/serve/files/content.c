@@ -15,7 +15,7 @@
 #include "http/hash.h"
 
 enum {
-    SLOTS = 4096,            /* a newer content takes the place of an older one */
+    BUCKETS = 4096,            /* a newer content takes the place of an older one */
     READ_BYTES = 65536,      /* at once */
     TICK_MILLISECONDS = 100, /* more than the ticks of a kernel's clock */
     COARSE_SECONDS = 2       /* of file systems that know no fractions */
@@ -23,7 +23,7 @@ enum {
 
 struct Contents {
     pthread_mutex_t lock;
-    Content slots[SLOTS]; /* by hash of the identity; unused ones are not settled */
+    Content buckets[BUCKETS]; /* by hash of the identity; unused ones are not settled */
 };
 
 int contents_open(Contents **contents, RetexError *err)
@@ -50,18 +50,18 @@ const char *content_text(const Content *content, char text[2 * CONTENT_DIGEST + 
     return text;
 }
 
-static Content *slot_of(Contents *contents, const FileId *id)
+static Content *bucket_of(Contents *contents, const FileId *id)
 {
-    return &contents->slots[hash_bytes(HASH_BEGIN, id, sizeof *id) % SLOTS];
+    return &contents->buckets[hash_bytes(HASH_BEGIN, id, sizeof *id) % BUCKETS];
 }
 
 int contents_find(Contents *contents, const FileId *id, Content *content)
 {
     pthread_mutex_lock(&contents->lock);
-    const Content *slot = slot_of(contents, id);
-    const int is_known = slot->is_settled && file_id_is_same(&slot->id, id);
+    const Content *bucket = bucket_of(contents, id);
+    const int is_known = bucket->is_settled && file_id_is_same(&bucket->id, id);
     if (is_known)
-        *content = *slot;
+        *content = *bucket;
     pthread_mutex_unlock(&contents->lock);
     return is_known;
 }
@@ -69,7 +69,7 @@ int contents_find(Contents *contents, const FileId *id, Content *content)
 static void remember(Contents *contents, const Content *content)
 {
     pthread_mutex_lock(&contents->lock);
-    *slot_of(contents, &content->id) = *content;
+    *bucket_of(contents, &content->id) = *content;
     pthread_mutex_unlock(&contents->lock);
 }
 
