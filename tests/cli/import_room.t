@@ -45,7 +45,7 @@ $ for m in dark window glass lamp cm twice; do
 # A line tells of what was found, and which option says otherwise.
 $ retex-import --exposure 0 -f room_cm.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from A to B/'
 > retex-import: the room is 260 units high: they are taken as centimetres, and become metres; --unit overrides
-> retex-import: no camera in the model: the view is from inside; 18 % of it is furniture, 23 % floor, 7 objects are seen, from A to B 74 degrees
+> retex-import: no camera in the model: the view is from inside; 19 % of it is furniture, 24 % floor, 7 objects are seen, from A to B 74 degrees
 > retex-import: other views: View_2 from inside, View_3 from inside, View_4 from inside; --camera of retex-render takes one
 > retex-import: no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
@@ -53,7 +53,7 @@ $ retex-import --exposure 0 -f room_cm.obj -o x 2>&1 | sed 's/from [-0-9.,]* to 
 > retex-import: wrote x/x.pov
 $ retex-import --exposure 0 -f room_z.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from A to B/'
 > retex-import: the model stands on its xy plane: z is taken as up; --up y overrides
-> retex-import: no camera in the model: the view is from inside; 18 % of it is furniture, 23 % floor, 7 objects are seen, from A to B 74 degrees
+> retex-import: no camera in the model: the view is from inside; 19 % of it is furniture, 24 % floor, 7 objects are seen, from A to B 74 degrees
 > retex-import: other views: View_2 from inside, View_3 from inside, View_4 from inside; --camera of retex-render takes one
 > retex-import: no light in the model, and no opening in the room: a light below the ceiling, Ceiling_light, lights it
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
