@@ -1,7 +1,8 @@
 # retex: one make, not recursive. Every directory with sources has a rules.mk that adds to the lists below.
 #   make              the tools, the library and the bridge, into build/
 #   make demo         set up, build, render the living room, denoise and retexture it, into build/demo/
-#   make check        set up, build, run the tests; check-unit, check-cli, … run one suite
+#   make check        set up, build, run a choice of the tests
+#   make check-full   all that a change must pass; check-unit, check-cli, … run one suite
 #   make check-all    also tests that take long or need heavy programs
 #   make check-faults let every allocation, file and thread call fail in turn; ten minutes
 #   make check-mutants build each defect of tests/mutants/list.txt; a test must fail

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Runs suites of tests and adds up their results: check.sh SUITE… or check.sh SUITE/TEST…
+# Runs suites of tests and adds up their results: check.sh SUITE… or check.sh SUITE/TEST… The suite quick is the tests
+# that tests/quick.txt names.
 #
 # Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
 # job of a suite; JOBS of them run at a time. It is one more failure if a job has a bad exit status without a failed
@@ -46,6 +47,9 @@ jobs_of() {
     faults) echo "faults/calls sh tests/faults/faults.sh" ;;
     mutants) echo "mutants/list tests/mutants/run.py" ;;
     lint) echo "lint/house sh tests/lib/lint.sh --tap" ;;
+    quick) for s in lint unit cli web oiio python man docs golden faults fidelity; do jobs_of $s; done |
+            awk 'NR == FNR { commands[$1] = $0; next } /^#/ { next } $1 in commands { print commands[$1]; next }
+                { print "missing/" $1, "false" }' - tests/quick.txt ;;
     esac
 }
 

@@ -245,6 +245,7 @@ found=$(sed -n '/^Build-Depends:/,/^$/p' debian/control | sed -e 's/^Build-Depen
 quoted=$(/usr/bin/python3 -B tests/figures/quote.py --check) || complain "$quoted"
 old=$(/usr/bin/python3 -B tests/figures/ages.py) || complain "$old"
 complaints=$(tests/mutants/run.py --lint) || complain "$complaints"
+complaints=$(tests/mutants/quick.py --lint) || complain "$complaints"
 if [ "${1-}" = --tap ]; then
     [ "$status" = 0 ] && echo "ok 1 - rules of the house" || echo "not ok 1 - rules of the house"
     exit 0

@@ -3,8 +3,9 @@
 
 A mutant that no named test notices fails, and so does one that does not compile or whose text is not in its file once.
 MUTANTS chooses: `all`; `tenth`, the default, those whose turn it is on the day of the last commit, so that ten days see
-all; or names. A test counts only if it passes without a mutant, which is tried once a test; with `tenth` it is taken as
-known from `make check`. Trees with builds of their own lie in $BUILD/mutants, JOBS of them side by side.
+all; `changed`, those of files that differ from the commit MUTANTS_BASE, and then the tenth; or names. A test counts only
+if it passes without a mutant, which is tried once a test; with `tenth` and `changed` it is taken as known from `make
+check-full`. Trees with builds of their own lie in $BUILD/mutants, JOBS of them side by side.
 MUTANT_MINUTES=N begins no mutant after that time: the rest is skipped, in another order each day.
 $BUILD/mutants/results keeps what was found, so that a run that was stopped goes on; it counts as long as the sources are
 the same.
@@ -219,17 +220,26 @@ def digest(text):
     return int(hashlib.sha256(text.encode()).hexdigest(), 16)
 
 
+def changed_files():
+    """Those that differ from MUTANTS_BASE; none where git does not know that commit."""
+    base = os.environ.get("MUTANTS_BASE") or "HEAD~1"
+    told = subprocess.run(["git", "diff", "--name-only", base, "HEAD"], cwd=ROOT, capture_output=True, text=True,
+                          check=False)
+    return set(told.stdout.split("\n")) - {""}
+
+
 def choose(mutants):
     """By MUTANTS."""
     wanted = os.environ.get("MUTANTS") or "tenth"
     if wanted == "all":
         return mutants
-    if wanted == "tenth":
+    if wanted in ("tenth", "changed"):
         seconds = subprocess.check_output(["git", "show", "-s", "--format=%ct", "HEAD"], cwd=ROOT)
         day = int(seconds) // 86400
-        turn = [m for m in mutants if digest(m.name) % 10 == day % 10
-                and not any(test.startswith("long/") for test in m.tests)]  # those need `make check-all`'s programs
-        return sorted(turn, key=lambda mutant: digest(f"{day} {mutant.name}"))
+        able = [m for m in mutants if not any(test.startswith("long/") for test in m.tests)]  # make check-all's programs
+        files = changed_files() if wanted == "changed" else set()
+        turn = [m for m in able if m.path in files or digest(m.name) % 10 == day % 10]
+        return sorted(turn, key=lambda m: (m.path not in files, digest(f"{day} {m.name}")))
     unknown = set(wanted.split()) - {m.name for m in mutants}
     if unknown:
         sys.exit("no such mutant: " + " ".join(sorted(unknown)))
@@ -243,7 +253,7 @@ def main():
         print("\n".join(found), end="\n" if found else "")
         return 1 if found else 0
     chosen = choose(mutants)
-    sound = None if os.environ.get("MUTANTS", "tenth") == "tenth" else Sound()
+    sound = None if os.environ.get("MUTANTS", "tenth") in ("tenth", "changed") else Sound()
     key, names = source_key()
     os.makedirs(os.path.join(BUILD, "mutants"), exist_ok=True)
     results = os.path.join(BUILD, "mutants", "results")
