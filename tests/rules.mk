@@ -114,9 +114,9 @@ tests: test-programs $(FAULTS) unit-tests fuzz-programs $(BUILD)/tests/bench/ben
 # Suites are run by tests/lib/check.sh, which adds up what they report.
 SUITES ?= lint unit cli web oiio python man docs golden faults fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
-# check runs those of tests/quick.txt, which tests/mutants/quick.py chooses.
+# check runs those of tests/quick.txt, which tests/mutants/quick.py chooses; one more at a time, as some wait.
 check: test-programs $(FAULTS) unit-tests
-	@$(RUN_CHECK) quick
+	@BUILD=$(BUILD) JOBS=$$(($(JOBS) + 1)) tests/lib/check.sh quick
 check-full: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
