@@ -213,7 +213,7 @@ static int encode_tiles(RetexPackJpeg *jpeg, const Atlas *atlas, int count, int 
         const RetexImage *im = &atlas->set->parts[tile->part].image;
         tile->curve = choose_curve(im, &packed[tile->part], &ignored);
         atlas->own[i] = fmin(atlas->own[i], tile->curve.levels * step / LEVELS_LEAST);
-        tile->curve.levels = fmax(tile->curve.levels * step / atlas->own[i], LEVELS_LEAST);
+        tile->curve.levels = tile->curve.levels * step / atlas->own[i];
         draw(levels, width, tile, im);
     }
     retex_pack_jpeg_free(jpeg);
