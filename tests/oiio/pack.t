@@ -10,7 +10,7 @@ $ retex-combine -q room.retex --texture Floor=brick.jpg -o brick.exr
 
 # Its picture, the parts of its set by name, and what is told of them.
 $ iinfo room.retex
-> room.retex :   48 x   32, 3 channel, float retex (137 subimages)
+> room.retex :   48 x   32, 3 channel, float retex (134 subimages)
 $ iinfo -v -a room.retex | grep -A 16 'subimage  1:' | sort
 >     channel list: indep.R, indep.G, indep.B
 >     channel list: original_Floor.R, original_Floor.G, original_Floor.B

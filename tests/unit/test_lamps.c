@@ -267,7 +267,8 @@ static void lamps_are_rounded_by_their_own_noise(void **state)
                 if (set->terms[t].role == RETEX_ROLE_LAMP &&
                     set->terms[t].factors[set->terms[t].nfactors - 1].index == 0)
                     white[c] += (double)before[(size_t)t * VALUES + (size_t)(i - i % 3 + c)];
-        const double step = fmax(fmax(white[0], fmax(white[1], white[2])) / 8192, 0.15 * 1e-6) * 1.001;
+        const double most = fmax(white[0], fmax(white[1], white[2]));
+        const double step = fmax(most / 8192, 0.1 * sqrt(1e-6 * most * sqrt(0.5 / set->spp))) * 1.001;
         for (int t = 0; t < set->nterms; t++)
             if (set->terms[t].role == RETEX_ROLE_LAMP && set->terms[t].factors[set->terms[t].nfactors - 1].index == 0) {
                 const double a = (double)before[(size_t)t * VALUES + (size_t)i];

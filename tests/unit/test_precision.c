@@ -1,5 +1,4 @@
-/* How precisely numbers of sets are stored: errors against the fractions of noise that precision.h states. Noise is
- * averaged by a plain loop. */
+/* How precisely numbers of sets are stored: errors against the fractions of noise that precision.h states. */
 #include "lib_denoise.h"
 #include <cmocka.h>
 
@@ -31,34 +30,6 @@ static const float *at(const RetexSet *set, int part, int x, int y)
     return im->pixels + retex_image_index(im, x, y);
 }
 
-/* The variance of a signal's noise: the mean root of its size in the 5x5 pixels around one, those of its band of 16
- * rows only, over that of normal numbers of variance 1. */
-static double noise2(const RetexSet *set, int part, int x, int y)
-{
-    double sum = 0, own = 0;
-    int count = 0;
-    for (int v = y - 2; v <= y + 2; v++)
-        for (int u = x - 2; u <= x + 2; u++) {
-            if (u < 0 || u >= WIDTH || v < 0 || v >= HEIGHT || v / 16 != y / 16)
-                continue;
-            const float *n = at(set, part, u, v);
-            for (int c = 0; c < 3; c++) {
-                own += u == x && v == y ? fabs((double)n[c]) : 0;
-                sum += sqrt(fabs((double)n[c]));
-                count++;
-            }
-        }
-    return own > 0 ? pow(sum / count * sqrt(M_PI) / (pow(2, 0.25) * tgamma(0.75)), 4) : 0;
-}
-
-static double noise_of_all(const RetexSet *set, const RetexSignals *signals, int x, int y)
-{
-    double sum = 0;
-    for (int s = 0; s < signals->count; s++)
-        sum += noise2(set, signals->of[s].noise, x, y);
-    return sqrt(sum);
-}
-
 static double white(const RetexSet *set, int x, int y)
 {
     double sum[3] = {0, 0, 0};
@@ -66,6 +37,28 @@ static double white(const RetexSet *set, int x, int y)
         for (int c = 0; c < 3; c++)
             sum[c] += (double)at(set, set->terms[t].radiance, x, y)[c];
     return fmax(sum[0], fmax(sum[1], sum[2]));
+}
+
+/* The noise of a signal: the geometric mean of what its part of `noise` tells of the pixel and of that of a light of 16
+ * samples, each of which has half of the white pixel as its variance. */
+static double noise_of(const RetexSet *was, const RetexSet *noise, const RetexSignal *signal, int x, int y)
+{
+    const float *n = at(noise, signal->noise, x, y);
+    double light = 0;
+    for (int m = 0; m < signal->nmembers; m++) {
+        const float *v = at(was, was->terms[signal->members[m].term].radiance, x, y);
+        light += (double)signal->members[m].weight * (double)(v[0] + v[1] + v[2]) / 3;
+    }
+    return sqrt((fabs((double)n[0]) + fabs((double)n[1]) + fabs((double)n[2])) / 3 *
+                sqrt(0.5 * light * white(was, x, y) / 16));
+}
+
+static double noise_of_all(const RetexSet *set, const RetexSignals *signals, int x, int y)
+{
+    double sum = 0;
+    for (int s = 0; s < signals->count; s++)
+        sum += pow(noise_of(set, set, &signals->of[s], x, y), 2);
+    return sqrt(sum);
 }
 
 /* The step of a signal's sum: a 128th of the white pixel, or of the brightest channel of light that no texture
@@ -95,7 +88,7 @@ static void expect_light(const RetexSet *is, const RetexSet *was, const RetexSet
     for (int s = 0; s < signals.count; s++)
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const int x = i % WIDTH, y = i / WIDTH;
-            const double sigma = sqrt(noise2(noise, signals.of[s].noise, x, y));
+            const double sigma = (1 + halves) * noise_of(was, noise, &signals.of[s], x, y);
             const double step = sigma > 0 ? fmax(fraction * sigma, 1.001 * white(was, x, y) / 8192) : 0;
             for (int c = 0; c < 3; c++) {
                 double a = 0, b = 0, size = 0;
@@ -126,7 +119,7 @@ static void light_is_rounded_to_its_noise(void **state)
         RetexSet *set = noisy_set(layouts[k], 1), *was = noisy_set(layouts[k], 1);
         RetexError err = {0};
         test_must(retex_set_round(set, NULL, 2, &err), &err);
-        expect_light(set, was, was, 0.15, 0);
+        expect_light(set, was, was, 0.1, 0);
         retex_set_close(&set);
         retex_set_close(&was);
     }
@@ -140,7 +133,7 @@ static void denoised_light_is_rounded_to_less(void **state)
         RetexSet *set = noisy_set(layouts[k], 1), *exact = noisy_set(layouts[k], 1), *was = noisy_set(layouts[k], 1);
         denoise_all(set, NULL, 2);
         denoise_all(exact, &denoise_exactly, 2);
-        expect_light(set, exact, was, 0.15 * 0.3, 1.0 / 1024);
+        expect_light(set, exact, was, 0.1 * 0.3, 1.0 / 1024);
         retex_set_close(&set);
         retex_set_close(&exact);
         retex_set_close(&was);
@@ -185,6 +178,7 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
     const float *uv = at(was, f->uv, x, y), *got = at(is, f->uv, x, y);
     const double light = light_of(was, number, x, y);
     const int broad = f->kind >= RETEX_FOOTPRINT_BROAD;
+    const RetexTarget *target = &was->targets[f->target];
     if (uv[2] == 0) {
         assert_memory_equal(uv, got, 12);
         return;
@@ -193,11 +187,11 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
                 "coverage");
     for (int k = 0; k < 2; k++) {
         const double sd = (double)at(was, f->spread, x, y)[k], size = fabs((double)uv[k]);
-        /* clusters lie within .3, so few samples are credited with no more; 16 significant bits are enough */
-        const double weight = 1 / (1 + fmax((double)uv[2] * was->spp - 1, 0) / 5);
-        const double wide = broad && sd < 0.3 ? pow(sd, 1 - weight) * pow(0.3, weight) : sd;
-        const double step = fmax(step_of(wide, broad ? 1 : .5, 1. / 1024, broad ? 1 : .5, noise, light),
-                                 size / 32768 <= sd / 2 || (double)uv[2] * was->spp < 8 ? size / 32768 : 0);
+        /* few samples are credited with half of the target's range; 16 significant bits are enough */
+        const double samples = fmax((double)uv[2] * was->spp, 1), range = target->uv_max[k] - target->uv_min[k];
+        const double wide = broad ? fmax(sd, range / 2 / samples) : sd;
+        const double step = fmax(step_of(wide, broad ? 2 : .5, 1. / 1024, broad ? 1 : .5, noise, light),
+                                 samples < 8 ? size / 32768 : fmin(size / 32768, sd / 2));
         expect_near((double)got[k], (double)uv[k], step / 2, "mean");
         expect_near((double)at(is, f->spread, x, y)[k], sd,
                     step_of(sd, broad ? 1.5 : .25, 1. / 1024, broad ? 1 : 1. / 16, noise, light) / 2, "deviation");
@@ -228,30 +222,25 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
     test_must(retex_set_round(set, NULL, 2, &err), &err);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH, y = i / WIDTH;
-        double sum[3][3] = {{0}}, step[3] = {0, 0, 0};
         for (int k = 0; k < was->nfootprints; k++) {
             const RetexFootprint *f = &was->footprints[k];
-            const int kind = f->kind - RETEX_FOOTPRINT_SHARP;
             double noise = noise_of_all(was, &signals, x, y), light = light_of(was, k, x, y);
             for (int s = 0; s < signals.count; s++)
                 if (signals.of[s].target == f->target && signals.of[s].kind == f->kind)
-                    noise = sqrt(noise2(was, signals.of[s].noise, x, y));
+                    noise = noise_of(was, was, &signals.of[s], x, y);
             expect_footprint(set, was, k, noise, x, y);
             if (at(was, f->uv, x, y)[2] == 0 || !(light > 0))
                 continue;
             for (int c = 0; c < 3; c++)
-                sum[kind][c] += light * ((double)at(set, f->albedo, x, y)[c] - (double)at(was, f->albedo, x, y)[c]);
-            step[kind] = fmax(step[kind], light * step_of(1, .05, 1. / 4096, .0625, noise, light));
+                expect_near((double)at(set, f->albedo, x, y)[c], (double)at(was, f->albedo, x, y)[c],
+                            step_of(1, .02, 1. / 4096, 1. / 64, noise, light) / 2, "albedo");
         }
-        for (int k = 0; k < 9; k++) /* what original albedos reflect together is rounded once */
-            expect_near(sum[k / 3][k % 3], 0, step[k / 3] / 2 + 1e-6, "reflected light");
     }
     retex_signals_close(&signals);
     retex_set_close(&set);
     retex_set_close(&was);
 }
 
-/* Where a signal has no noise its light stays as it is, whatever the noise around it. */
 /* The light that a mixture multiplies. */
 static double light_of_mixture(const RetexSet *set, int mixture, int x, int y)
 {
@@ -320,7 +309,7 @@ static void spread_gains_what_means_lose(void **state)
             float *mean = both[b]->parts[uv].image.pixels + 3 * i;
             for (int k = 0; k < 2; k++)
                 mean[k] = (float)(-0.03 + 1.56 * test_random(&seed));
-            mean[2] = 1.0f / 16;
+            mean[2] = 4.0f / 16;
             memset(both[b]->parts[spread].image.pixels + both[b]->parts[spread].image.channels * i, 0,
                    2 * sizeof(float));
         }
@@ -332,16 +321,18 @@ static void spread_gains_what_means_lose(void **state)
             const float *is = at(set, uv, i % WIDTH, i / WIDTH), *before = at(was, uv, i % WIDTH, i / WIDTH);
             const double s = (double)at(set, spread, i % WIDTH, i / WIDTH)[k], d = (double)(is[k] - before[k]);
             moved += d * d, gained += s * s;
+            assert_true(fabs(d) <= 0.5 * 1.56 / 4 / 2); /* of a range of 1.56, by 4 samples */
             assert_true((double)is[k] >= -0.03 - 1e-7 && (double)is[k] <= 1.53 + 1e-7);
         }
     print_message("means moved by %g, spreads %g\n", sqrt(moved / (2 * WIDTH * HEIGHT)),
                   sqrt(gained / (2 * WIDTH * HEIGHT)));
     assert_true(moved > 1e-6 * 2 * WIDTH * HEIGHT);
-    assert_true(fabs(moved / gained - 1) < 0.2);
+    assert_true(fabs(moved / gained - 1) < 0.3); /* spreads of one bit are up to a sixth smaller */
     retex_set_close(&set);
     retex_set_close(&was);
 }
 
+/* Where a signal has no noise its light stays as it is. */
 static void light_without_noise_is_exact(void **state)
 {
     (void)state;
@@ -437,6 +428,33 @@ static void a_band_store_and_threads_change_nothing(void **state)
     retex_set_close(&stored);
 }
 
+/* A region is rounded as that part of the whole is, whatever lies around it. */
+static void a_pixel_is_rounded_by_itself(void **state)
+{
+    (void)state;
+    static const RetexRoi roi = {13, 21, 50, 40, 0, 3};
+    RetexSet *set = noisy_set("footprints", 1), *other = noisy_set("footprints", 1);
+    RetexPrecision *precision;
+    RetexError err = {0};
+    for (int k = 0; k < other->nparts; k++)
+        for (int i = 0; i < WIDTH * HEIGHT && other->parts[k].image.width == WIDTH; i++) {
+            const int x = i % WIDTH, y = i / WIDTH, channels = other->parts[k].image.channels;
+            for (int c = 0; c < channels && (x < roi.x0 || x >= roi.x1 || y < roi.y0 || y >= roi.y1); c++)
+                other->parts[k].image.pixels[i * channels + c] *= 0.3f;
+        }
+    retex_set_round_to_types(other, 2);
+    test_must(retex_set_round(set, NULL, 2, &err), &err);
+    test_must(retex_precision_open(&precision, other, 1, &err), &err);
+    test_must(retex_precision_round(precision, other, &roi, 2, &err), &err);
+    retex_precision_close(&precision);
+    for (int k = 0; k < set->nparts; k++)
+        for (int y = roi.y0; y < roi.y1 && set->parts[k].image.width == WIDTH; y++)
+            assert_memory_equal(at(set, k, roi.x0, y), at(other, k, roi.x0, y),
+                                sizeof(float) * (size_t)((roi.x1 - roi.x0) * set->parts[k].image.channels));
+    retex_set_close(&set);
+    retex_set_close(&other);
+}
+
 /* A file may have reduced shares: they stay as they are, and light is rounded. */
 static void reduced_shares_are_left(void **state)
 {
@@ -455,7 +473,7 @@ static void reduced_shares_are_left(void **state)
     RetexImage shares = {0};
     test_must(retex_image_copy(&shares, &set->parts[part].image, &err), &err);
     test_must(retex_set_round(set, NULL, 2, &err), &err);
-    expect_light(set, was, was, 0.15, 0);
+    expect_light(set, was, was, 0.1, 0);
     assert_memory_equal(set->parts[part].image.pixels, shares.pixels, sizeof(float) * WIDTH / 2 * HEIGHT / 2);
     retex_image_free(&shares);
     retex_set_close(&set);
@@ -474,6 +492,7 @@ int main(void)
         cmocka_unit_test(a_set_without_noise_parts),
         cmocka_unit_test(data_of_denoising_are_rounded),
         cmocka_unit_test(a_band_store_and_threads_change_nothing),
+        cmocka_unit_test(a_pixel_is_rounded_by_itself),
         cmocka_unit_test(reduced_shares_are_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

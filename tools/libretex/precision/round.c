@@ -11,7 +11,7 @@
 #include "set/parts.h"
 #include "set/set.h"
 
-enum { ROWS = 4 * RETEX_PRECISION_LINES }; /* that are in memory at once */
+enum { ROWS = 64 }; /* that are in memory at once */
 
 typedef struct RoundedStore {
     const RetexSet *set, *rows;
