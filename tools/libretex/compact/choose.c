@@ -22,6 +22,8 @@ static const struct {
                        [LAMP_GAINS] = {35, 35}};
 static const double LOST_MIXED[] = {[RETEX_FOOTPRINT_SHARP] = 120, [RETEX_FOOTPRINT_BROAD] = 700};
 
+#define NOISE_KEPT                                                                                                     \
+    0.25 /* of less taken away, footprints of broad light are not averaged: detail.h sees no noise there */
 #define NOISE_ALLOWED 0.025 /* what may be lost, as a share of the picture's own noise */
 #define NOISE_IGNORED_OF_LAMPS                                                                                         \
     0.5              /* of noise that averaging removes: denoised light is uneven, and more hid blotches */
@@ -103,7 +105,7 @@ static void choose_kinds(RetexCompactScales *scales, const RetexCompactLight *li
 {
     const double most = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_ALLOWED * details->noise);
     const int chosen = choose_interreflection(light, details, params->noise, most);
-    const int further = params->interreflection ? params->interreflection
+    const int further = params->interreflection  ? params->interreflection
                         : chosen > params->least ? chosen
                                                  : params->least;
     /* With finishes to choose from no picture is of all light. */
@@ -117,7 +119,9 @@ static void choose_kinds(RetexCompactScales *scales, const RetexCompactLight *li
         scales->clusters[i] = sharp                                           ? 1
                               : kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? further
                               : params->broad                                 ? params->broad
-                                              : coarsest(&details->clusters[i], CLUSTERS, params->noise, most);
+                              : params->noise <= NOISE_KEPT
+                                  ? 1
+                                  : coarsest(&details->clusters[i], CLUSTERS, params->noise, most);
         scales->gains[i] = params->gain ? params->gain
                            : unseen     ? 1 << (RETEX_COMPACT_STEPS - 1)
                                         : coarsest(gains, sharp ? GAINS : BROAD_GAINS, ignored, most);

@@ -19,12 +19,13 @@
 /* The kinds of numbers. A number's step is a power of two, at most scale * clamp(fraction * relative noise, finest,
  * coarsest); relative noise is that of the light which the number multiplies. */
 typedef enum Kind {
-    LIGHT,      /* scale: the pixel's value with white targets */
-    CORRECTION, /* scale: the same */
-    PICTURE,    /* scale: the value */
-    MEAN,       /* of UV; scale: the standard deviation */
-    BROAD_MEAN, /* of what is not seen directly, in mirrors or through glass */
-    SPREAD,     /* scale: the value */
+    LIGHT,        /* scale: the pixel's value with white targets */
+    CHOICE_LIGHT, /* of sets with finishes to choose from, which have more of it; scale: the same */
+    CORRECTION,   /* scale: the same */
+    PICTURE,      /* scale: the value */
+    MEAN,         /* of UV; scale: the standard deviation */
+    BROAD_MEAN,   /* of what is not seen directly, in mirrors or through glass */
+    SPREAD,       /* scale: the value */
     BROAD_SPREAD,
     CORRELATION,       /* scale: 1 - |correlation| */
     BROAD_CORRELATION, /* scale: 1 */
@@ -32,6 +33,7 @@ typedef enum Kind {
     ALBEDO,            /* scale: 1 */
     WEIGHT,            /* in mixtures; scale: 1 */
     NOISE,             /* scale: the value */
+    CHOICE_NOISE,      /* of light of each choice of finishes; scale: the value */
     GUIDE,             /* scale: 1 */
     POSITION,          /* scale: the value */
     KINDS
@@ -43,6 +45,7 @@ static const struct {
     double fraction, finest, coarsest;
 } RULES[KINDS] = {
     [LIGHT] = {0.1, 1.0 / 8192, INFINITY},
+    [CHOICE_LIGHT] = {0.2, 1.0 / 8192, INFINITY},
     [CORRECTION] = {0.04, 1.0 / 8192, 1.0 / 512},
     [PICTURE] = {0, 1.0 / 1024, 1.0 / 1024},
     [MEAN] = {0.5, 1.0 / 1024, 1.0 / 2},
@@ -55,6 +58,7 @@ static const struct {
     [ALBEDO] = {0.02, 1.0 / 4096, 1.0 / 64},
     [WEIGHT] = {0.25, 1.0 / 512, 1.0 / 32},
     [NOISE] = {0, 1.0 / 2, 1.0 / 2},
+    [CHOICE_NOISE] = {0, 1, 1},
     [GUIDE] = {0, 1.0 / 256, 1.0 / 256},
     [POSITION] = {0, 1.0 / 2048, 1.0 / 2048},
 };
@@ -65,6 +69,9 @@ static const double NOISE_OF_A_SAMPLE = 0.5;
 static const double SUM_STEP = 1.0 / 128;
 /* Albedo that further hits count with where errors go to other terms. Errors show most with bright textures. */
 static const double CARRIED = 0.8;
+/* With finishes to choose from a picture is never of all light, which is the mean over all choices: its terms with
+ * further hits only guide denoising and compact sets, and have steps that are larger by this. */
+static const double MEAN_FURTHER = 8;
 /* A broad footprint of n samples is credited with a deviation of this share of its target's range, divided by n: few
  * samples do not tell it. */
 static const double CREDITED = 0.5;
@@ -75,6 +82,7 @@ struct RetexPrecision {
     RetexSignals signals;
     double remaining;
     int has_noise;
+    int has_finishes; /* 1: finishes to choose from, not denoised: light of role lamp is that of each choice */
     int signal_of[RETEX_SET_FOOTPRINTS_MAX]; /* whose light a footprint multiplies; -1: all light */
     int shared[RETEX_SET_FOOTPRINTS_MAX];    /* the first footprint with the same mean UV, or its own number */
     char is_own[RETEX_SET_FOOTPRINTS_MAX];   /* 1: that is itself, and has all its parts, which are not reduced */
@@ -160,6 +168,7 @@ int retex_precision_open(RetexPrecision **result, const RetexSet *set, double re
         return code;
     }
     p->remaining = remaining, p->has_noise = 1;
+    p->has_finishes = remaining >= 1 && retex_set_has_finishes(set);
     for (int k = 0; k < p->signals.count; k++) {
         const RetexSignal *signal = &p->signals.of[k];
         qsort(signal->members, (size_t)signal->nmembers, sizeof *signal->members, compare_members);
@@ -365,6 +374,12 @@ static void round_member(const Pixel *p, const RetexSignalMember *member, double
     }
 }
 
+/* Light that no picture shows: its errors are not carried on to that which pictures do show. */
+static int is_unseen(const RetexPrecision *plan, const RetexSignal *signal, const RetexSignalMember *member)
+{
+    return plan->has_finishes && signal->lamp < 0 && member->hits > 1;
+}
+
 /* Numbers are rounded by their noise, and their errors added to the brightest one, which is rounded by its light: so
  * the sum of a signal is as precise as a picture needs, whatever its noise. */
 static void round_signal(const RetexPrecision *plan, const Pixel *p, int number)
@@ -372,20 +387,25 @@ static void round_signal(const RetexPrecision *plan, const Pixel *p, int number)
     const RetexSignal *signal = &plan->signals.of[number];
     const RetexSignalMember *brightest = NULL;
     const double white = p->white[signal->lamp + 1];
-    double carried[3] = {0, 0, 0}, most = 0;
+    double carried[3] = {0, 0, 0}, ignored[3] = {0, 0, 0}, most = 0;
     if (!(white > 0) || (plan->has_noise ? !(p->noise[number] > 0) : signal->target < 0))
         return;
     for (int m = 0; m < signal->nmembers; m++) {
         const double light = (double)signal->members[m].weight * mean_size(part_of(p, signal->members[m].part));
-        if (light > most)
+        if (light > most && !is_unseen(plan, signal, &signal->members[m]))
             most = light, brightest = &signal->members[m];
     }
+    const double step = step_of(plan->has_finishes ? CHOICE_LIGHT : LIGHT, white, p->noise[number] / white);
+    const double finest = step_of(LIGHT, white, 0);
+    for (int m = 0; m < signal->nmembers; m++)
+        if (is_unseen(plan, signal, &signal->members[m]))
+            round_member(p, &signal->members[m], retex_round_unit(MEAN_FURTHER * step), ignored);
     if (!brightest)
         return;
-    const double step = step_of(LIGHT, white, p->noise[number] / white), finest = step_of(LIGHT, white, 0);
     const double whole = signal->target < 0 ? largest_size(part_of(p, brightest->part)) : white;
     for (int m = 0; m < signal->nmembers; m++)
-        if (&signal->members[m] != brightest && !signal->members[m].corrects)
+        if (&signal->members[m] != brightest && !signal->members[m].corrects &&
+            !is_unseen(plan, signal, &signal->members[m]))
             round_member(p, &signal->members[m], retex_round_unit(step), carried);
     round_member(p, brightest, retex_round_unit(fmin(step, fmax(SUM_STEP * whole, finest))), carried);
 }
@@ -417,11 +437,14 @@ static void round_pixel(const RetexPrecision *plan, Pixel *p)
 }
 
 /* The kind of a part's numbers, if they are rounded by themselves; -1: another part. */
-static int lone_kind(const RetexSet *set, int part)
+static int lone_kind(const RetexPrecision *plan, const RetexSet *set, int part)
 {
     const char *name = set->parts[part].name;
     if (part == 0)
         return PICTURE;
+    for (int k = 0; k < plan->signals.count && plan->has_finishes; k++)
+        if (plan->signals.of[k].noise == part && plan->signals.of[k].lamp >= 0)
+            return CHOICE_NOISE;
     if (retex_name_is_noise(name))
         return NOISE;
     if (!retex_name_is_feature(name))
@@ -438,7 +461,7 @@ typedef struct Rounding {
 static void round_lone_numbers(const Rounding *r, int y0, int y1)
 {
     for (int k = 0; k < r->rows->nparts; k++) {
-        const int kind = lone_kind(r->rows, k);
+        const int kind = lone_kind(r->plan, r->rows, k);
         const RetexImage *im = &r->rows->parts[k].image;
         for (int y = y0; y < y1 && kind >= 0 && im->pixels && is_whole(r->rows, k, 1); y++) {
             float *v = im->pixels + retex_image_index(im, r->roi.x0, y);
