@@ -138,6 +138,9 @@ def write_models():
     obj('room_z.obj', faces, z_up=True)
     obj('room_mm_z.obj', faces, 1000, z_up=True)
     obj('turned.obj', faces, turned=True)
+    # on one wall hang shelves, and there is no ceiling
+    shelves = quads(dict(inside=SHELL, boxes=[('Shelves', (.5, .5, 0), (3, 2.4, .9))]))
+    obj('lidless.obj', [(n, q) for n, q in shelves if {p[1] for p in q} != {2.6}])
     # each face again, the other way round; and of another material
     obj('doubled.obj', faces + [(n, q[:1] + q[:0:-1]) for n, q in faces])
     obj('back_sides.obj', faces + [('Back', q[:1] + q[:0:-1]) for n, q in faces])

@@ -59,6 +59,11 @@ $ retex-import --exposure 0 -f room_z.obj -o x 2>&1 | sed 's/from [-0-9.,]* to [
 > retex-import: 6 materials, 7 meshes, 7 objects, 60 triangles
 > retex-import: targets that are ready: Floor, Wall; -t of retex-render takes them by name
 > retex-import: wrote x/x.pov
+
+# A room without a ceiling does not stand on a wall, whatever hangs there.
+$ retex-import --exposure 0 -q lidless.obj -o lidless && judge bounds lidless
+> 5 x 2.6 x 4
+
 $ retex-import --exposure 0 -f doubled.obj -o x 2>&1 | grep ' lie'
 > retex-import: 60 faces lie on others of the same corners: one of each is kept
 $ retex-import --exposure 0 -f twice.gltf -o x 2>&1 | grep 'the same one'

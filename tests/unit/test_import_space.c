@@ -269,6 +269,23 @@ static void a_solid_is_no_room(void **unused)
     space_free(space);
 }
 
+/* The space within a block is much higher, but one sees its sides from behind. */
+static void a_block_below_a_room_is_none(void **unused)
+{
+    (void)unused;
+    SpaceTriangles t = make(64, 32);
+    const double low[3] = {0, -20, 0}, high[3] = {5, -.01, 4}, floor[3] = {0, 0, 0}, top[3] = {5, 2.6, 4};
+    RetexError err = {0};
+    Room room;
+    add_box(&t, low, high, 0, 0, 0);
+    add_box(&t, floor, top, 1, 1u << 3, 6);
+    Space *space = create(&t);
+    assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+    assert_true(room.is_closed && fabs(room.floor) < .02 && fabs(room.height - 2.6) < .1);
+    room_free(&room);
+    space_free(space);
+}
+
 /* A corner of a rectangle is above the point, at this height. */
 static double solid_angle(double a, double b, double height)
 {
@@ -643,6 +660,7 @@ int main(void)
         cmocka_unit_test(a_box_is_measured),
         cmocka_unit_test(a_counter_is_furniture),
         cmocka_unit_test(a_solid_is_no_room),
+        cmocka_unit_test(a_block_below_a_room_is_none),
         cmocka_unit_test(the_load_is_what_lines_meet),
         cmocka_unit_test(crowds_are_not_asked),
         cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),

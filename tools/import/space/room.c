@@ -116,7 +116,7 @@ static int choose_level(const Room *room, const Gaps *gaps)
     for (int i = 0; i < room->nx * room->nz; i++)
         for (int k = 0; k < gaps[i].count; k++) {
             const Gap *gap = &gaps[i].list[k];
-            const double e = (double)gap->enclosed, front = 0.2 + 0.8 * (double)gap->front;
+            const double e = (double)gap->enclosed, front = 0.1 + 0.9 * (double)gap->front;
             sums[level_of(room, (double)gap->floor)] +=
                 (double)gap->reach * front * (e > 0.6 ? e * e : 0.02 * e + 1e-3);
         }
