@@ -6,7 +6,7 @@ mattes.py sums FILE              what masks and coverages add up to
 mattes.py names FILE KIND        names of a manifest that cover more than a hundredth of some pixel
 mattes.py whole FILE KIND        whether the coverages are 1 in each pixel
 mattes.py where FILE LAYER OBJECT…  whether the layer is above a hundredth only where one of the objects is seen, and there
-mattes.py same FILE TRUTH DB LAYER…   the sum of layers, masks or KIND/NAME, against the red of a picture
+mattes.py same FILE DB (TRUTH LAYER+…)…   sums of layers, masks or KIND/NAME, against the red of pictures
 """
 import json
 import sys
@@ -139,12 +139,13 @@ def main():
         layer = mattes.layer(sys.argv[3]) > 0.01
         print(sys.argv[3], "only in", *sys.argv[4:], bool((layer <= inside).all() and layer.any()))
     elif command == "same":
-        truth = oiio.ImageBuf(sys.argv[3]).get_pixels(oiio.FLOAT)[..., 0]
-        found = sum(mattes.layer(text) for text in sys.argv[5:])
-        decibels = -10 * numpy.log10(max(float(((found - truth) ** 2).mean()), 1e-12))
-        seen = float(truth.mean())
-        good = decibels >= float(sys.argv[4]) and seen > 1e-3
-        print(*sys.argv[5:], "same" if good else f"{decibels:.2f} dB, mean {seen:.4f} and {found.mean():.4f}")
+        for path, layers in zip(sys.argv[4::2], sys.argv[5::2]):
+            truth = oiio.ImageBuf(path).get_pixels(oiio.FLOAT)[..., 0]
+            found = sum(mattes.layer(text) for text in layers.split("+"))
+            decibels = -10 * numpy.log10(max(float(((found - truth) ** 2).mean()), 1e-12))
+            seen = float(truth.mean())
+            good = decibels >= float(sys.argv[3]) and seen > 1e-3
+            print(layers, "same" if good else f"{decibels:.2f} dB, mean {seen:.4f} and {found.mean():.4f}")
 
 
 main()

@@ -4,7 +4,7 @@ $ skip-unless /usr/bin/python3 -c 'import numpy, OpenImageIO'
 # The file: one part, metadata and manifests as the specification has them, largest coverage first.
 % # What mattes.py says of a file: mattes WHAT FILE …
 % mattes() { /usr/bin/python3 "$TESTS/mattes.py" "$@"; }
-$ retex-render -q --size 96x72 --spp 64 -t Floor -t Wall -t Gauze -t Glass "$TESTS/mattes.pov" --mattes m.exr -o set.exr
+$ retex-render -q --size 48x36 --spp 64 -t Floor -t Wall -t Gauze -t Glass "$TESTS/mattes.pov" --mattes m.exr -o set.exr
 $ mattes layout m.exr
 > parts 1 channels 64 of Cryptomatte 48 floats True
 > CryptoObject MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
@@ -28,17 +28,18 @@ $ mattes sums m.exr
 
 # The matte of an object, and of a texture, is the picture of the scene in which it shines and all else is black: with
 # two textures, copied, without a name, half clear, with holes, and where textures change into each other.
-% # A picture of the scene in which what has the name alone shines: shining NAME OPTION…
+% # A picture NAME.exr of the scene in which what has the name alone shines: shining NAME OPTION…
 % shining() {
 %     name=$1
 %     shift
-%     retex-render -q --size 96x72 --plain -D "Emit=\"$name\"" "$@" "$TESTS/mattes.pov" -o e.exr
+%     retex-render -q --size 48x36 --plain -D "Emit=\"$name\"" "$@" "$TESTS/mattes.pov" -o "$name.exr"
 % }
 $ for n in Ground Back Cut Twin lone Veil Grid Pole; do
 +     shining $n --spp 64 -D Direct=1
-+     case $n in lone) n='#7' ;; esac
-+     mattes same m.exr e.exr 80 CryptoObject/$n
-+ done
++     case $n in lone) object='#7' ;; *) object=$n ;; esac
++     echo $n.exr CryptoObject/$object
++ done >pairs
+$ mattes same m.exr 80 $(cat pairs)
 > CryptoObject/Ground same
 > CryptoObject/Back same
 > CryptoObject/Cut same
@@ -49,9 +50,10 @@ $ for n in Ground Back Cut Twin lone Veil Grid Pole; do
 > CryptoObject/Pole same
 $ for n in Floor Wall Shell Core Gauze Lattice Rust Steel; do
 +     shining $n --spp 64 -D Direct=1
-+     mattes same m.exr e.exr 80 CryptoMaterial/$n
-+     case $n in Floor | Wall | Gauze) mattes same m.exr e.exr 80 mask_$n ;; esac
-+ done
++     echo $n.exr CryptoMaterial/$n
++     case $n in Floor | Wall | Gauze) echo $n.exr mask_$n ;; esac
++ done >pairs
+$ mattes same m.exr 80 $(cat pairs)
 > CryptoMaterial/Floor same
 > mask_Floor same
 > CryptoMaterial/Wall same
@@ -67,19 +69,21 @@ $ for n in Floor Wall Shell Core Gauze Lattice Rust Steel; do
 # The same with what is seen through glass and in mirrors, up to the picture's noise.
 $ for n in Floor Wall Gauze; do
 +     shining $n --spp 256
-+     mattes same m.exr e.exr 48 mask_$n mask_${n}_transmitted mask_${n}_reflected
-+     mattes same m.exr e.exr 48 CryptoThroughMaterial/$n
-+ done
-> mask_Floor mask_Floor_transmitted mask_Floor_reflected same
++     echo $n.exr mask_$n+mask_${n}_transmitted+mask_${n}_reflected
++     echo $n.exr CryptoThroughMaterial/$n
++ done >pairs
+$ mattes same m.exr 46 $(cat pairs)
+> mask_Floor+mask_Floor_transmitted+mask_Floor_reflected same
 > CryptoThroughMaterial/Floor same
-> mask_Wall mask_Wall_transmitted mask_Wall_reflected same
+> mask_Wall+mask_Wall_transmitted+mask_Wall_reflected same
 > CryptoThroughMaterial/Wall same
-> mask_Gauze mask_Gauze_transmitted mask_Gauze_reflected same
+> mask_Gauze+mask_Gauze_transmitted+mask_Gauze_reflected same
 > CryptoThroughMaterial/Gauze same
 $ for n in Ground Cut Twin; do
 +     shining $n --spp 256
-+     mattes same m.exr e.exr 48 CryptoThroughObject/$n
-+ done
++     echo $n.exr CryptoThroughObject/$n
++ done >pairs
+$ mattes same m.exr 46 $(cat pairs)
 > CryptoThroughObject/Ground same
 > CryptoThroughObject/Cut same
 > CryptoThroughObject/Twin same
@@ -91,11 +95,12 @@ $ mattes where m.exr mask_Floor_reflected Pane Ball
 > mask_Floor_reflected only in Pane Ball True
 
 # By the picture's lens and filter.
-$ retex-render -q --size 96x72 --spp 64 -D Lens=1 --filter gaussian "$TESTS/mattes.pov" --mattes l.exr -o p.exr
+$ retex-render -q --size 48x36 --spp 64 -D Lens=1 --filter gaussian "$TESTS/mattes.pov" --mattes l.exr -o p.exr
 $ for n in Ground Cut; do
 +     shining $n --spp 64 -D Lens=1 --filter gaussian -D Direct=1
-+     mattes same l.exr e.exr 80 CryptoObject/$n
-+ done
++     echo $n.exr CryptoObject/$n
++ done >pairs
+$ mattes same l.exr 80 $(cat pairs)
 > CryptoObject/Ground same
 > CryptoObject/Cut same
 
