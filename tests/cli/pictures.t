@@ -4,11 +4,11 @@ $ /usr/bin/python3 "$TESTS/pictures.py" whole | grep -v '^# '
 > read
 $ /usr/bin/python3 "$TESTS/pictures.py" pixels
 > refused
-$ /usr/bin/python3 "$TESTS/pictures.py" damaged 2 1
+$ /usr/bin/python3 "$TESTS/pictures.py" damaged 123456789 2 1
 > jpeg True True
 $ wc -l <shares.txt
 > 23
-$ /usr/bin/python3 "$TESTS/pictures.py" accepted 1 2
+$ /usr/bin/python3 "$TESTS/pictures.py" accepted 258 1 2
 > pictures
 $ make_digests -a damaged/dpx-10@cut-5.dpx damaged/zfile@cut-5.zfile
 > damaged/dpx-10@cut-5.dpx refused -3 cannot read: the file is truncated

@@ -1,5 +1,6 @@
-"""damage_pictures.py FROM TO COUNT SEED: copies of FROM's files in TO, damaged: cut off at every tenth, and COUNT times
-each with a run of zeros, with one byte flipped in a bit, with a byte missing and with a surplus one."""
+"""damage_pictures.py FROM TO CUTS COUNT SEED: copies of FROM's files in TO, damaged: cut off at the tenths CUTS, such as
+159, and COUNT times each with a run of zeros, with one byte flipped in a bit, with a byte missing and with a surplus
+one."""
 import os
 import random
 import sys
@@ -19,13 +20,13 @@ def damaged(data, kind, chance):
 
 
 def main():
-    source, target, count = sys.argv[1], sys.argv[2], int(sys.argv[3])
-    chance = random.Random(int(sys.argv[4]))
+    source, target, cuts, count = sys.argv[1], sys.argv[2], sys.argv[3], int(sys.argv[4])
+    chance = random.Random(int(sys.argv[5]))
     for name in sorted(os.listdir(source)):
         with open(os.path.join(source, name), "rb") as file:
             data = file.read()
         base, ending = os.path.splitext(name)
-        copies = {f"cut-{tenth}": data[:len(data) * tenth // 10] for tenth in range(1, 10)}
+        copies = {f"cut-{tenth}": data[:len(data) * int(tenth) // 10] for tenth in cuts}
         for kind in "zeros", "flip", "missing", "surplus":
             for number in range(count):
                 copies[f"{kind}-{number}"] = damaged(data, kind, chance)
