@@ -2,7 +2,7 @@
 # commit; long/listings runs all of them with sanitizers.
 $ skip-unless /usr/bin/python3 -c ''
 % day=$(($(git -C "$TESTS" show -s --format=%ct HEAD 2>/dev/null || echo 0) / 86400))
-% sample() { /usr/bin/python3 -B "$TESTS/../lib/listings.py" "$(command -v retex-render)" 30 $day "$@"; }
+% sample() { /usr/bin/python3 -B "$TESTS/../lib/listings.py" "$(command -v retex-render)" 10 $day "$@"; }
 $ sample "$SCENES"/*/*.pov "$TESTS"/../golden/room.pov "$TESTS/finishes.pov" >told
 $ grep '^not ok\|^1' told
 > 1..6
