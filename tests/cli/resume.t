@@ -2,7 +2,7 @@
 # cut BLOCKS COMMAND...: a render that leaves finished rows of at most so many blocks of 512 bytes.
 % cut() { (ulimit -f "$1"; shift; "$@" --resume --threads 1); }
 $ cp -r "$SCENES/cornell-box" .
-$ echo 'exec retex-render -q --size 64x120 --spp 16 -t floor cornell-box/cornell-box.pov "$@"' >render
+$ echo 'exec retex-render -q --size 64x120 --spp 8 -t floor cornell-box/cornell-box.pov "$@"' >render
 $ chmod +x render
 $ ./render -o ref.exr && ./render --resume -o a.exr && cmp a.exr ref.exr
 $ ls
@@ -22,12 +22,13 @@ $ ls
 > k.exr
 > ref.exr
 > render
-$ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr png; do
+$ for m in "exr --plain" "png --replace floor=rgb(0.1,0.2,0.3)" "exr --denoise" "png --denoise"; do
++     e=${m%% *} m=${m#* }
 +     ./render $m -o p.$e
 +     (for k in 05 1 15 2; do timeout --foreground -s KILL 0.$k ./render $m --resume -o q.$e && break; done) 2>/dev/null
 +     ./render $m --resume -o q.$e
 +     cmp p.$e q.$e
-+ done; done
++ done
 ! retex-render: warning: p.png holds the picture only: a set needs .exr or .retex
 ! retex-render: warning: q.png holds the picture only: a set needs .exr or .retex
 $ ./render -o p.retex
@@ -51,25 +52,19 @@ $ cat >stop <<'END'
 + wait $!
 + END
 $ chmod +x stop
-$ for o in --resume ''; do for s in INT TERM; do
-+     ./stop $s $o -o i.exr 2>err
+$ for o in 'INT --resume' TERM; do
++     ./stop $o -o i.exr 2>err
 +     echo $?
 +     sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err
 +     ls i.exr
 +     ./long --resume -o i.exr
 +     cmp i.exr long.exr
 +     rm i.exr
-+ done; done
++ done
 > 130
 > retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
 > 143
 > retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> 130
-> retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> 143
-> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-! ls: cannot access 'i.exr': No such file or directory
-! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.exr': No such file or directory
 $ ls i.*
@@ -178,18 +173,13 @@ $ chmod +x long2
 $ ./long2 -o long2.exr
 $ sed 's/long/long2/' stop >stop2
 $ chmod +x stop2
-$ for o in --resume ''; do
-+     ./stop2 TERM $o -o i.exr 2>err
-+     echo $?
-+     sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err
-+     ls i.exr
-+     ./long2 --resume -o i.exr
-+     cmp i.exr long2.exr
-+     rm i.exr
-+ done
-> 143
-> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> i.exr
+$ rm i.exr
++ ./stop2 TERM -o i.exr 2>err
++ echo $?
++ sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err
++ ls i.exr
++ ./long2 --resume -o i.exr
++ cmp i.exr long2.exr
 > 143
 > retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
 ! ls: cannot access 'i.exr': No such file or directory
@@ -199,13 +189,13 @@ $ ls *.partial
 
 # A checkpoint may have lost its end, or more.
 $ cp s1 x.exr.partial; printf 'something' >>x.exr.partial; ./render --resume -o x.exr; cmp x.exr ref.exr
-$ for n in 10 40 47 48 100 5000 20000 60000; do
+$ for n in 10 47 48 100 20000; do
 +     head -c $n s1 >x.exr.partial
 +     rm x.exr
 +     ./render --resume -o x.exr
 +     cmp x.exr ref.exr
 + done
-$ for n in 50 200 9000 30000; do
+$ for n in 50 9000; do
 +     (
 +         head -c $n s1
 +         printf x
@@ -221,7 +211,7 @@ $ cp s1 y.exr.partial; ./render --resume --spp 4 -o y.exr; cmp s1 y.exr.partial
 ! retex-render: error: y.exr.partial is of another render: other options, another scene or build
 $ sed 's/0.73/0.74/' cornell-box/cornell-box.pov >cornell-box/other.pov
 $ cmp -s cornell-box/cornell-box.pov cornell-box/other.pov ||
-+     retex-render -q --size 64x120 --spp 16 -t floor cornell-box/other.pov --resume -o y.exr
++     retex-render -q --size 64x120 --spp 8 -t floor cornell-box/other.pov --resume -o y.exr
 ! retex-render: error: y.exr.partial is of another render: other options, another scene or build
 = 2
 $ cmp s1 y.exr.partial
