@@ -81,20 +81,26 @@ $ cp "$TESTS"/../web/*.py .
 $ mkdir T; for t in brick damask fans terrazzo travertine walnut-herringbone; do
 +     oiiotool "$SCENES/textures/$t.jpg" --resize 256x256 -o T/$t.jpg
 + done
-% near() { /usr/bin/python3 near.py s.exr "$@"; }
-$ near one 40
-$ near one 40 Floor=T/walnut-herringbone.jpg
-$ near one 38 Wall=T/brick.jpg
-$ near packed 40 Floor=T/fans.jpg Wall=T/travertine.jpg
-$ near one 38 Floor=T/terrazzo.jpg Wall=T/damask.jpg
-$ near one 40 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7
-$ near one 40 Floor=T/brick.jpg:scale=3,2:rotate=30:offset=0.2,0.5
+% near() { /usr/bin/python3 near.py "$@"; }
+$ near s.exr one <<'END'
++ 40
++ 40 Floor=T/walnut-herringbone.jpg
++ 38 Wall=T/brick.jpg
++ 38 Floor=T/terrazzo.jpg Wall=T/damask.jpg
++ 40 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7
++ 40 Floor=T/brick.jpg:scale=3,2:rotate=30:offset=0.2,0.5
++ END
+$ near s.exr packed <<'END'
++ 40 Floor=T/fans.jpg Wall=T/travertine.jpg
++ END
 
 # Lamps that can be changed: as rendered, and as in a set that was rendered so.
 $ make_lamps s.exr lamps.exr
 $ make_lamps s.exr other.exr 0.25,1,0
 $ retex-pack -q lamps.exr --web lamps
-$ /usr/bin/python3 near.py lamps.exr lamps 38 Floor=T/walnut-herringbone.jpg
+$ near lamps.exr lamps <<'END'
++ 38 Floor=T/walnut-herringbone.jpg
++ END
 $ /usr/bin/python3 reference.py lamps a.exr Lamp=0.25,1,0 Wall=0.8,0.1,0.1
 $ retex-combine -q other.exr --texture Wall='rgb(0.8,0.1,0.1)' -o b.exr
 $ retex-diff -q a.exr b.exr --fail-psnr 38
@@ -114,14 +120,15 @@ $ retex-pack each.exr --web each 2>&1 | sed 's/[0-9]\{3,\}/N/g'; ls each/lamps-*
 $ retex-pack -q each.exr --no-lamps --web none; diff -rq each none | sed 's/-[0-9a-f]\{8\}//'
 > Only in each: lamps.jpg
 > Files each/room.json and none/room.json differ
-% near() { /usr/bin/python3 near.py each.exr each "$@"; }
-$ near 40
-$ near 35 'light:*=0' light:Daylight=1
-$ near 32 'light:*=0' light:Garden=1
-$ near 37 'light:*=0' light:Lamp=1
-$ near 35 light:Daylight=0.2 'light:Lamp=3*rgb(1,0.6,0.3)' Floor=T/walnut-herringbone.jpg
-$ near 35 'light:Garden=2*rgb(0.2,0.5,1)' light:Lamp=0 Wall=0.2,0.3,0.7
-$ near 39 light:Lamp=1.001
+$ near each.exr each <<'END'
++ 40
++ 35 light:*=0 light:Daylight=1
++ 32 light:*=0 light:Garden=1
++ 37 light:*=0 light:Lamp=1
++ 35 light:Daylight=0.2 light:Lamp=3*rgb(1,0.6,0.3) Floor=T/walnut-herringbone.jpg
++ 35 light:Garden=2*rgb(0.2,0.5,1) light:Lamp=0 Wall=0.2,0.3,0.7
++ 39 light:Lamp=1.001
++ END
 $ python3 - <<'END'
 + import json
 + heights = [tile["height"] for tile in json.load(open("each/room.json"))["lamps"]["tiles"]]
@@ -132,7 +139,9 @@ $ retex-pack -q each.exr --web again --threads 1
 $ diff -r again each
 $ retex-pack -q each.exr -o each.retex
 $ retex-pack -q each.retex --web packed-lamps
-$ /usr/bin/python3 near.py each.exr packed-lamps 34 light:Daylight=0.1 light:Lamp=2
+$ near each.exr packed-lamps <<'END'
++ 34 light:Daylight=0.1 light:Lamp=2
++ END
 $ turn_a_bit again/lamps-*
 $ /usr/bin/python3 reference.py again b.exr 2>&1 | sed 's/-.*[.]jpg/.jpg/'
 > lamps.jpg is damaged
@@ -164,9 +173,12 @@ $ cat >off.pov <<'END'
 + END
 $ retex-render -q --size 96x72 --spp 64 --denoise -t F --lamps each off.pov -o off.exr
 $ retex-pack -q off.exr --web off
-$ for l in '' light:Spot=1 light:Sun=0.2 'light:Red=rgb(0,0.5,1)'; do
-+     /usr/bin/python3 near.py off.exr off 38 F=0.3,0.6,0.2 $l
-+ done
+$ near off.exr off <<'END'
++ 38 F=0.3,0.6,0.2
++ 38 F=0.3,0.6,0.2 light:Spot=1
++ 38 F=0.3,0.6,0.2 light:Sun=0.2
++ 38 F=0.3,0.6,0.2 light:Red=rgb(0,0.5,1)
++ END
 $ retex-pack off.exr --web off --web-lamps 1; test -e off/room.json && echo kept
 > kept
 ! retex-pack: error: a page of 1 lamps has no room for all that are off in the picture: --web-lamps has more, --no-lamps none
@@ -186,16 +198,19 @@ $ retex-pack shine.exr --web shine 2>&1 | sed 's/[0-9]\{3,\}/N/g'
 > retex-pack: set shine.exr: N bytes
 > retex-pack: folder shine: N bytes, N until the picture, N until the first target
 > retex-pack: finishes of Floor, Wall: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
-% near() { /usr/bin/python3 near.py shine.exr shine "$@"; }
-$ near 38
-$ near 38 finish:Floor=Gloss
-$ near 37 finish:Wall=satin
-$ near 38 finish:Floor=Gloss finish:Wall=satin Floor=T/walnut-herringbone.jpg
-$ near 38 finish:Floor=Gloss Wall=0.8,0.2,0.2
+$ near shine.exr shine <<'END'
++ 38
++ 38 finish:Floor=Gloss
++ 37 finish:Wall=satin
++ 38 finish:Floor=Gloss finish:Wall=satin Floor=T/walnut-herringbone.jpg
++ 38 finish:Floor=Gloss Wall=0.8,0.2,0.2
++ END
 
 # Maps of finishes: of one target, and of two, one a colour.
-$ near 42 Floor=T/brick.jpg:finish=T/fans.jpg
-$ near 42 Floor=T/brick.jpg:scale=2:finish=T/fans.jpg Wall=0.8,0.2,0.2:finish=T/terrazzo.jpg finish:Wall=satin
+$ near shine.exr shine <<'END'
++ 42 Floor=T/brick.jpg:finish=T/fans.jpg
++ 42 Floor=T/brick.jpg:scale=2:finish=T/fans.jpg Wall=0.8,0.2,0.2:finish=T/terrazzo.jpg finish:Wall=satin
++ END
 $ python3 - <<'END'
 + import json
 + room = json.load(open("shine/room.json"))
@@ -209,13 +224,14 @@ $ python3 - <<'END'
 > finish2 '' [2, 1] 0.0 0.25
 > finish3 '' [1, 2] 0.0 0.25
 > finish4 '' [2, 2] 0.0 0.25
-% near() { /usr/bin/python3 near.py lit.exr lit "$@"; }
 $ retex-render -q --size 96x72 --spp 64 --denoise --finish Floor=original,Gloss -l Lamp -l Panel room.pov -o lit.exr
 $ retex-pack -q lit.exr --web lit
-$ near 40
-$ near 39 finish:Floor=Gloss light:Lamp=0.2
-$ near 33 finish:Floor=Gloss light:Panel=0
-$ near 41 Floor=0.6,0.3,0.2:finish=T/fans.jpg light:Lamp=0.2
+$ near lit.exr lit <<'END'
++ 40
++ 39 finish:Floor=Gloss light:Lamp=0.2
++ 33 finish:Floor=Gloss light:Panel=0
++ 41 Floor=0.6,0.3,0.2:finish=T/fans.jpg light:Lamp=0.2
++ END
 $ retex-pack lit.exr --web lit --web-lamps 1 2>&1 | sed '1,2d; s/[0-9]\{3,\}/N/g'
 > retex-pack: lamps Lamp, rest; finishes of Floor: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
 > retex-pack: Panel joins rest, being dimmest: a page has 1 lamps, or as many as --web-lamps says
@@ -230,8 +246,10 @@ $ python3 - <<'END'
 > rest finish0 rest [0] 1.0 1.0
 > rest finish1 rest [1] 1.0 0.5
 > rest finish2 rest [2] 0.0 0.5
-$ near 40 finish:Floor=Gloss
-$ near 39 finish:Floor=Gloss light:Lamp=0.2
+$ near lit.exr lit <<'END'
++ 40 finish:Floor=Gloss
++ 39 finish:Floor=Gloss light:Lamp=0.2
++ END
 $ /usr/bin/python3 reference.py lit a.exr light:rest=2 finish:Floor=Gloss
 $ retex-combine -q lit.exr --light Panel=2 --finish Floor=Gloss -o b.exr
 $ retex-diff -q a.exr b.exr --fail-psnr 39
@@ -252,7 +270,7 @@ $ retex-render -q --size 96x72 --spp 16 -t F -t G far.pov -o far.exr
 $ retex-render -q --size 1x1 --spp 1 -t F -t G far.pov -o tiny.exr
 $ for s in far tiny; do
 +     retex-pack -q $s.exr --web web-$s
-+     /usr/bin/python3 near.py $s.exr web-$s 36 F=T/brick.jpg:scale=.5 G=1,0,0
++     echo 36 F=T/brick.jpg:scale=.5 G=1,0,0 | near $s.exr web-$s
 + done
 $ python3 -c 'import json; print(max(t["uv_max"][1] for t in json.load(open("web-far/room.json"))["targets"]) > 2048)'
 > True

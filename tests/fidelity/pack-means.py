@@ -1,7 +1,7 @@
 """Compares the means, by channel, of pictures made from a set and from a pack of it, or a folder for browsers: of all light,
 of each lamp alone and of each finish. For pack-means.sh: SET PACK MOST OPTIONS... prints each that is off by more than
 MOST, in percent, and the most. Pictures of folders are those of tests/web/reference.py."""
-import copy, os, re, subprocess, sys
+import os, re, subprocess, sys
 import numpy as np, OpenImageIO as oiio
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)) + "/../web")
@@ -16,22 +16,15 @@ def picture(name, options):
     return pixels
 
 
-def page_picture(room, options):
-    """The same of a folder; textures are colours."""
-    room, textures, lamps, finishes = copy.copy(room), {}, {}, {}
-    room.values, room.finishes = dict(room.values), list(room.finishes)
-    names = [t["name"] for t in room.room["targets"]]
+def words_of(options):
+    """The same edit in the words of reference.py; textures are colours."""
     for option, text in zip(options[::2], options[1::2]):
-        name, _, value = text.partition("=")
         if option == "--texture":
-            textures[names.index(name)] = reference.Texture(re.sub(r"rgb\((.*)\)", r"\1", value))
-        elif option == "--finish":
-            finishes[names.index(name)] = value
+            yield re.sub(r"rgb\((.*)\)", r"\1", text)
+        elif option == "--solo":
+            yield from ("light:*=0", f"light:{text}=1")
         else:
-            lamps |= {"*": "0", name: "1"} if option == "--solo" else {name: value}
-    if lamps or finishes:
-        room.set_edit(lamps, finishes, [])
-    return room.combine(textures)
+            yield f"{option[2:]}:{text}"
 
 
 given, packed, most, wrong, worst_block = sys.argv[1], sys.argv[2], float(sys.argv[3]), [], 0
@@ -39,7 +32,7 @@ room = reference.Room(packed) if os.path.isdir(packed) else None
 worst = 0
 for options in sys.argv[4:]:
     a = picture(given, options.split())
-    b = page_picture(room, options.split()) if room else picture(packed, options.split())
+    b = room.picture(*words_of(options.split())) if room else picture(packed, options.split())
     off = 100 * np.abs(b.mean(axis=(0, 1)) / a.mean(axis=(0, 1)) - 1)
     worst = max(worst, off.max())
     if not off.max() <= most:

@@ -477,28 +477,36 @@ class Room:
         return out
 
 
-def main():
-    room = Room(sys.argv[1])
-    names = [t["name"] for t in room.room["targets"]]
-    textures, lamps, finishes = {}, {}, {}
-    for argument in sys.argv[3:]:
-        name, text = argument.split("=", 1)
-        if name.startswith("light:"):
-            lamps[name[6:]] = text
-        elif name.startswith("finish:"):
-            finishes[names.index(name[7:])] = text
-        elif name not in names:
-            room.values[name] = np.array([float(x) for x in text.split(",")])
-        else:
-            textures[names.index(name)] = Texture(text)
-    mapped = [t for t, texture in textures.items() if texture.map]
-    if lamps or finishes or mapped:
-        room.set_edit(lamps, finishes, mapped)
-    picture = (room.combine_mapped(textures) if mapped else room.combine(textures)).astype(np.float32)
-    out = oiio.ImageOutput.create(sys.argv[2])
-    out.open(sys.argv[2], oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))
-    out.write_image(picture)
+    def picture(self, *words):
+        """The picture under an edit, in the words of this program; the room stays as it is."""
+        room, names = copy.copy(self), [t["name"] for t in self.room["targets"]]
+        room.values, room.finishes = dict(self.values), list(self.finishes)
+        textures, lamps, finishes = {}, {}, {}
+        for word in words:
+            name, text = word.split("=", 1)
+            if name.startswith("light:"):
+                lamps[name[6:]] = text
+            elif name.startswith("finish:"):
+                finishes[names.index(name[7:])] = text
+            elif name not in names:
+                room.values[name] = np.array([float(x) for x in text.split(",")])
+            else:
+                textures[names.index(name)] = Texture(text)
+        mapped = [t for t, texture in textures.items() if texture.map]
+        if lamps or finishes or mapped:
+            room.set_edit(lamps, finishes, mapped)
+        return room.combine_mapped(textures) if mapped else room.combine(textures)
+
+
+def write(path, picture):
+    out = oiio.ImageOutput.create(path)
+    out.open(path, oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))
+    out.write_image(picture.astype(np.float32))
     out.close()
+
+
+def main():
+    write(sys.argv[2], Room(sys.argv[1]).picture(*sys.argv[3:]))
 
 
 if __name__ == "__main__":
