@@ -8,7 +8,7 @@
 #   and in the kitchen. In the rounded set it is 0.89; it was 0.47 when spreads did not include rounding.
 set -u
 . tests/lib/tap.sh
-size=${FIDELITY_SIZE:-128x96} spp=${FIDELITY_SPP:-32} precision=--full-precision
+size=${FIDELITY_SIZE:-96x72} spp=${FIDELITY_SPP:-32} precision=--full-precision
 
 check_scene() { # SCENE TARGET=IMAGE…
     scene=$1

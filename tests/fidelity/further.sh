@@ -52,12 +52,12 @@ one() { room "$1" "$1" | sed 's/object { Wall }/#declare Room = union { object {
 for old in 0.5 0.7; do
     one $old >"$work/room.pov"
     for layout in footprints paper; do
-        render --size 64x48 --layout $layout -t Room "$work/room.pov" -o "$work/$layout.exr"
+        render --size 40x30 --layout $layout -t Room "$work/room.pov" -o "$work/$layout.exr"
     done
     retex-pack -q "$work/footprints.exr" -o "$work/footprints.retex"
     for new in rgb\(.5,.5,.5\) rgb\(.7,.7,.7\) rgb\(.9,.9,.9\) "$scenes/cornell-box/textures/encaustic-tiles.jpg"; do
         edit="Room=$new"
-        render --size 64x48 --replace "$edit" "$work/room.pov" -o "$work/again.exr"
+        render --size 40x30 --replace "$edit" "$work/room.pov" -o "$work/again.exr"
         for set in footprints.exr footprints.retex paper.exr; do
             retex-combine -q "$work/$set" --texture "$edit" -o "$work/new.exr"
             off "$work/new.exr" "$work/again.exr" 1.5 "$set: a closed room, $old to ${new##*/}"
@@ -66,13 +66,13 @@ for old in 0.5 0.7; do
 done
 
 room 0.5 0.5 >"$work/two.pov"
-render --size 64x48 -t Floor -t Wall "$work/two.pov" -o "$work/two.exr"
+render --size 40x30 -t Floor -t Wall "$work/two.pov" -o "$work/two.exr"
 for edit in 'Floor=rgb(.9,.9,.9) Wall=rgb(.9,.9,.9)' 'Floor=rgb(.2,.2,.2) Wall=rgb(.9,.9,.9)' 'Wall=rgb(.9,.9,.9)' 'Floor=rgb(.9,.9,.9)'; do
     replaced= textures=
     for statement in $edit; do replaced="$replaced --replace $statement" textures="$textures --texture $statement"; done
     case $edit in *.2*) most=5 ;; *' '*) most=1.5 ;; *) most=2.5 ;; esac
     # shellcheck disable=SC2086 # words wanted
-    render --size 64x48 $replaced "$work/two.pov" -o "$work/again.exr"
+    render --size 40x30 $replaced "$work/two.pov" -o "$work/again.exr"
     # shellcheck disable=SC2086
     retex-combine -q "$work/two.exr" $textures -o "$work/new.exr"
     off "$work/new.exr" "$work/again.exr" $most "two targets: $edit"

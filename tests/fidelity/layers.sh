@@ -6,7 +6,7 @@ set -u
 scene=$here/tests/data/layers.pov
 floor=$scenes/living-room/textures/oak-planks.jpg
 
-render() { retex-render -q --full-precision --threads 2 --size 96x72 --spp 64 "$@" "$scene"; }
+render() { retex-render -q --full-precision --threads 2 --size 48x36 --spp 64 "$@" "$scene"; }
 
 # compare NAME DECIBELS RELMSE NAME=TEXTURE…
 compare() {
@@ -44,7 +44,7 @@ same "$work/new.exr" "$work/wanted.exr" 80 'the picture with a layer replaced is
 scene=$here/tests/data/layers.pov
 
 # shares of the picture: what is seen of each
-retex-render --list-targets --size 96x72 "$scene" >"$work/shares"
+retex-render --list-targets --size 48x36 "$scene" >"$work/shares"
 result "$(awk '$2 == "Glaze" { glaze = $1 + 0 } $2 == "Lower" { lower = $1 + 0 } $2 == "Upper" { upper = $1 + 0 }
     END { print (glaze > 5 && glaze < 20 && upper > 20 && upper < 40 && lower > upper && lower < 65) }' "$work/shares")" \
     'shares of layers and of blends'

@@ -11,7 +11,7 @@
 # - energy: what lies beyond the last order is below 0.1%.
 set -u
 . tests/lib/tap.sh
-size=${FIDELITY_SIZE:-64x48} spp=${FIDELITY_SPP:-16}
+size=${FIDELITY_SIZE:-48x36} spp=${FIDELITY_SPP:-16}
 
 # Numbers of sets are not rounded to their noise, which would hide what the method itself loses.
 render() { retex-render -q --full-precision --threads 2 --size "$size" --spp "$spp" --seed 3 "$@"; }
