@@ -48,7 +48,8 @@ small() { render --size 96x54 --spp 16 --seed 3 "$@"; }
 targets='Floor Painting TableWood'
 small --full-precision -t Floor -t Painting -t TableWood "$scene" -o "$work/set.exr"
 for choice in $targets all; do
-    for color in near-black=0.01,0.01,0.01 white=1,1,1 red=0.8,0.02,0.02; do
+    case $choice in all) colors='near-black=0.01,0.01,0.01 white=1,1,1 red=0.8,0.02,0.02' ;; *) colors=white=1,1,1 ;; esac
+    for color in $colors; do
         textures= replacements=
         for target in $targets; do
             case $choice in all | "$target") ;; *) continue ;; esac
