@@ -51,25 +51,24 @@ $ grep -v 'with negative colours' err
 = 1
 
 # What is stated wrongly is said, and not followed.
-$ for f in bad-*; do
-+     retex-combine -q s.exr --texture Floor=$f -o x.exr || echo $?
-+     case $f in *.png) cmp x.exr none.exr ;; esac
-+ done
-! retex-combine: warning: bad-cicp-short.png: its chunk cICP is damaged; its colours are taken as sRGB
-! retex-combine: warning: bad-cicp.png: its chunk cICP names colours that cannot be converted, 9/16/0/1; its colours are taken as sRGB
-! retex-combine: warning: bad-cmyk.png: its ICC profile is damaged, or not for its colours; its colours are taken as sRGB
-! retex-combine: warning: bad-cut.tif: its ICC profile is damaged; its colours are taken as sRGB
-! retex-combine: warning: bad-gamma.png: its chunk gAMA is damaged; its colours are taken as sRGB
-! retex-combine: warning: bad-kind.tif: its ICC profile is for colours of another kind, GRAY; its colours are taken as sRGB
-! retex-combine: warning: bad-noise-f.tif: its ICC profile is damaged; its colours are taken as scene-linear
-! retex-combine: warning: bad-noise.tif: its ICC profile is damaged; its colours are taken as sRGB
-! retex-combine: warning: bad-primaries.png: its chunk cHRM has primaries that span no colour space; its colours are taken as sRGB
-! retex-combine: warning: bad-tags.jpg: its ICC profile is damaged; its colours are taken as sRGB
-$ for f in hurt-*; do
-+     retex-combine -q s.exr --texture Floor=$f -o x.exr >out 2>&1 || echo "$f $?"
+$ (echo output,Floor; for f in bad-*; do echo x-$f.exr,$f; done) >bad.csv
+$ retex-combine s.exr --batch bad.csv 2>&1 | sed '/ <- /d; / pictures, /d'
+> retex-combine: warning: bad-cicp-short.png: its chunk cICP is damaged; its colours are taken as sRGB
+> retex-combine: warning: bad-cicp.png: its chunk cICP names colours that cannot be converted, 9/16/0/1; its colours are taken as sRGB
+> retex-combine: warning: bad-cmyk.png: its ICC profile is damaged, or not for its colours; its colours are taken as sRGB
+> retex-combine: warning: bad-cut.tif: its ICC profile is damaged; its colours are taken as sRGB
+> retex-combine: warning: bad-gamma.png: its chunk gAMA is damaged; its colours are taken as sRGB
+> retex-combine: warning: bad-kind.tif: its ICC profile is for colours of another kind, GRAY; its colours are taken as sRGB
+> retex-combine: warning: bad-noise-f.tif: its ICC profile is damaged; its colours are taken as scene-linear
+> retex-combine: warning: bad-noise.tif: its ICC profile is damaged; its colours are taken as sRGB
+> retex-combine: warning: bad-primaries.png: its chunk cHRM has primaries that span no colour space; its colours are taken as sRGB
+> retex-combine: warning: bad-tags.jpg: its ICC profile is damaged; its colours are taken as sRGB
+$ for f in x-bad-*.png.exr; do cmp $f none.exr; done
+$ (echo output,Floor; for f in hurt-*; do echo $f.exr,$f; done) >hurt.csv
+$ retex-combine s.exr --batch hurt.csv 2>&1 |
 +     sed -e 's/^retex-combine: warning: hurt-[0-9]*.tif: its ICC profile is .*; its colours are taken as sRGB$//' \
-+         -e 's/^retex-combine: warning: hurt-.*: [0-9]* texels* .*//' -e '/^$/d' out
-+ done
++         -e 's/^retex-combine: warning: hurt-.*: [0-9]* texels* .*//' -e '/ <- /d; / pictures, /d' -e '/^$/d'
+$ for f in $(sed '1d; s/,.*//' hurt.csv); do test -e $f || echo $f; done
 $ cat >m.pov <<'END'
 + #version 3.7;
 + camera{location -3*z}
