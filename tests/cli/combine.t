@@ -48,12 +48,11 @@ $ make_set tall.exr 70 200
 %     cmp ours.txt theirs.txt && grep -c ColorSpace ours.txt
 % }
 $ for set in s tall; do
-+     for d in 8 16; do
-+         for v in Standard Filmic; do as_theirs $set.exr --depth $d --view $v; done
-+     done
++     as_theirs $set.exr --depth 8 --view Standard
++     as_theirs $set.exr --depth 16 --view Filmic
 + done | sort | uniq -c | sed 's/^ *//'
-> 8 2
-> 8 PASS
+> 4 2
+> 4 PASS
 $ rm tall.exr
 $ for f in sgi jp2 dpx; do
 +     retex-combine -q s.exr --depth 16 -o d16.$f

@@ -5,7 +5,7 @@
 %           camera { location <0.5, 0.3, -1> direction z right 2 * x up 2 * y }
 %           sphere { 0, 3 pigment { rgb 1 } finish { diffuse $1 emission 1 - $1 } }" >f.pov
 %     shift
-%     retex-render -q --size 64x64 --spp 64 f.pov "$@"
+%     retex-render -q --size 48x48 --spp 64 f.pov "$@"
 % }
 % share() { retex-info --json $1 | sed -n 's/.*"depth_cut":\([^,]*\),.*/\1/p'; }
 $ for a in .5 .9; do

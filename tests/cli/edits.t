@@ -1,5 +1,5 @@
 # How textures are adjusted and laid, in all the forms in which an edit comes.
-$ oiiotool "$SCENES/textures/brick.jpg" --resize 256x256 -o brick.jpg
+$ oiiotool "$SCENES/textures/brick.jpg" --resize 128x128 -o brick.jpg
 $ oiiotool "$SCENES/textures/damask.jpg" --resize 32x16 -o tile.png
 % render() { retex-render -q --size 64x48 --spp 16 "$TESTS/finishes.pov" -t Floor -t Wall "$@"; }
 $ render -o set.exr

@@ -137,7 +137,7 @@ $ retex-combine -q set.retex --finish Floor=Gloss -o two.exr
 $ retex-combine -q set.exr --finish Floor=Gloss -o one.exr
 $ cmp one.exr two.exr
 $ for f in original Gloss Coated polished; do
-+     finished --spp 256 --plain --show Floor=$f -o truth.exr
++     finished --spp 128 --plain --show Floor=$f -o truth.exr
 +     retex-combine -q set.exr --finish Floor=$f -o n.exr
 +     for s in den.exr den.retex; do
 +         retex-combine -q $s --finish Floor=$f -o d.exr

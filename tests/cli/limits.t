@@ -113,7 +113,7 @@ $ retex-render --max-memory 100M --max-pixels 1000000000 --size 20000x20000 --pl
 = 2
 $ sed 's/[0-9.]* GB/N GB/; s/are [0-9.]*:/are N:/' err
 > retex-render: error: 20000x20000 pixels need N GB of memory, there are N: render parts with --crop, or raise --max-memory
-$ make_set large.exr 1500 1500 footprints denoise
+$ make_set large.exr 1000 1000 footprints denoise
 $ for t in "retex-denoise large.exr -o x.exr" "retex-pack --lossless large.exr -o x.retex" \
 +     "retex-diff large.exr large.exr"; do
 +     make_peak peak $t --max-memory 60M

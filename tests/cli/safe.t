@@ -211,8 +211,8 @@ $ retex-combine -q s.exr -o t.png
 $ for e in jpg tif tga bmp gif hdr exr webp; do retex-combine -q s.exr -o t.$e; done
 $ for e in png jpg tif tga bmp gif hdr exr webp; do
 +     cp t.$e t.$e.txt
++     retex-combine -q s.exr --texture floor=t.$e -o any.exr
 +     for f in t.$e t.$e.txt; do
-+         retex-combine -q s.exr --texture floor=$f -o any.exr
 +         retex-combine --safe -q s.exr --texture floor=$f -o safe.exr && cmp any.exr safe.exr && echo "$f same"
 +     done
 + done
@@ -234,11 +234,11 @@ $ for e in png jpg tif tga bmp gif hdr exr webp; do
 > t.exr.txt same
 > t.webp same
 > t.webp.txt same
-$ for o in colorspace=linear colorspace=ACEScg colorspace=sRGB; do for e in png jpg exr hdr tif; do
-+     retex-combine -q s.exr --texture:$o floor=t.$e -o any.exr 2>/dev/null
-+     retex-combine --safe -q s.exr --texture:$o floor=t.$e -o safe.exr 2>/dev/null
+$ for t in linear:png linear:jpg linear:tif ACEScg:png ACEScg:exr sRGB:hdr sRGB:exr; do
++     retex-combine -q s.exr --texture:colorspace=${t%:*} floor=t.${t#*:} -o any.exr 2>/dev/null
++     retex-combine --safe -q s.exr --texture:colorspace=${t%:*} floor=t.${t#*:} -o safe.exr 2>/dev/null
 +     cmp any.exr safe.exr
-+ done; done
++ done
 + for e in png jpg exr hdr tga; do retex-diff --safe -q t.$e t.$e || echo $e; done
 # All else is not, whatever it is called.
 $ retex-combine -q s.exr -o t.ppm

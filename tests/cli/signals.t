@@ -105,7 +105,7 @@ $ for o in "" --resume "--plain --noise 0.0001" "--aov irradiance" --caustics-gu
 ! retex-render: error: ended by SIGTERM
 $ ls -A out
 $ retex-render -q --spp 2 --size 480x360 -t floor cornell-box/cornell-box.pov -o noisy.exr
-$ make_set big.exr 1600 1600
+$ make_set big.exr 1000 1000
 $ for t in "retex-denoise --threads 1 --radius 10 noisy.exr -o out/a.exr" "retex-pack noisy.exr -o out/a.retex" \
 +     "retex-pack --lossless big.exr -o out/a.retex" "retex-sample big.exr --texture Wall=big.exr -o out/a.exr" \
 +     "retex-diff big.exr big.exr --all-parts"; do
