@@ -103,14 +103,15 @@ $ retex-denoise -q r.exr -o rd.exr
 $ retex-denoise -q g.exr -o gd.exr
 % # Two decibels less than a report promises: textures that packing does not try lose as little.
 % promised() { python3 -c "import json; print(json.load(open('$1'))['promised'] - 2)"; }
+$ for t in brick terrazzo; do oiiotool scenes/textures/$t.jpg --resize 256x256 -o $t.png; done
 $ for s in r rd g gd; do
 +     for t in brick terrazzo; do
-+         retex-combine -q $s.exr --texture Floor=scenes/textures/$t.jpg -o $t.exr
++         retex-combine -q $s.exr --texture Floor=$t.png -o $t.exr
 +     done
-+     for q in 30 60 90 100; do
++     for q in 30 90 100; do
 +         retex-pack -q $s.exr -o p.retex --quality $q --stats $s$q.json
 +         for t in brick terrazzo; do
-+             retex-combine -q p.retex --texture Floor=scenes/textures/$t.jpg -o b.exr
++             retex-combine -q p.retex --texture Floor=$t.png -o b.exr
 +             retex-diff -q $t.exr b.exr --fail-psnr $(promised $s$q.json) || echo $s $q $t
 +         done
 +     done
@@ -118,14 +119,14 @@ $ for s in r rd g gd; do
 $ rm scenes
 $ python3 - <<'END'
 + import json
-+ p = {s: [json.load(open(f"{s}{q}.json")) for q in (30, 60, 90, 100)] for s in ("r", "rd", "g", "gd")}
-+ print([j["promised"] for j in p["rd"]], p["r"][2]["promised"] < 34)
++ p = {s: [json.load(open(f"{s}{q}.json")) for q in (30, 90, 100)] for s in ("r", "rd", "g", "gd")}
++ print([j["promised"] for j in p["rd"]], p["r"][1]["promised"] < 34)
 + def measured(j):
 +     return j["promised"] <= j["measured"] == min(j["psnr"][k] for k in ("original", "white", "squares"))
 + print([[measured(j) for j in p[s]] for s in p])
 + END
-> [28.0, 31.0, 34.0, 50.0] True
-> [[True, True, True, True], [True, True, True, True], [True, True, True, True], [True, True, True, True]]
+> [28.0, 34.0, 50.0] True
+> [[True, True, True], [True, True, True], [True, True, True], [True, True, True]]
 # Lossless packs of rendered and of denoised sets, too.
 $ for s in g gd; do
 +     retex-pack -q --lossless $s.exr -o l.retex
