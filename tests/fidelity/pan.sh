@@ -5,7 +5,7 @@
 set -u
 . tests/lib/tap.sh
 need_pictures "the pans"
-FRAMES_WORK=$work/frames FRAMES_HEIGHT=32 FRAMES_TRUTH_SPP=512 FRAMES_SEEDS=1 tests/fidelity/table/frames.sh 2>"$work/err" ||
+FRAMES_WORK=$work/frames FRAMES_HEIGHT=32 FRAMES_SPP=32 FRAMES_TRUTH_SPP=512 FRAMES_SEEDS=1 tests/fidelity/table/frames.sh 2>"$work/err" ||
     sed 's/^/# /' "$work/err"
 # temporal SCENE FRAMES: the figure.
 temporal() { awk -F, -v s="$1" -v f="$2" '$1 == s && $3 == f { print $4 }' "$work/frames/frames.csv"; }
