@@ -105,18 +105,22 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests test-programs tests check check-full check-all check-debug check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
+.PHONY: unit-tests test-programs suite-programs tests check check-suites check-full check-all check-debug check-faults check-mutants check-branches check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-guided fuzz-coverage fuzz-programs sanitized-fuzz guided-fuzz guided-programs
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) $(BUILD)/tests/web/player.js all
-tests: test-programs $(FAULTS) unit-tests fuzz-programs $(BUILD)/tests/bench/bench
+# What the suites run; fuzzing and benchmarks are built beside them, so that they go on compiling.
+suite-programs: test-programs $(FAULTS) unit-tests
+tests: suite-programs fuzz-programs $(BUILD)/tests/bench/bench
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
 SUITES ?= lint unit cli web oiio python man docs golden faults fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 # check runs those of tests/quick.txt, which tests/mutants/quick.py chooses; one more at a time, as some wait.
-check: test-programs $(FAULTS) unit-tests
+check: suite-programs
 	@BUILD=$(BUILD) JOBS=$$(($(JOBS) + 1)) tests/lib/check.sh quick
+check-suites: suite-programs
+	@$(RUN_CHECK) $(SUITES)
 check-full: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
@@ -126,7 +130,7 @@ check-all: tests sanitized-fuzz
 # With assertions on.
 DEBUG_SUITES ?= unit cli
 check-debug:
-	$(MAKE) BUILD=$(BUILD)/debug DEBUG=1 SUITES='$(DEBUG_SUITES)' check-full
+	$(MAKE) BUILD=$(BUILD)/debug DEBUG=1 SUITES='$(DEBUG_SUITES)' check-suites
 # Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
 check-mutants: tests
 	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants
@@ -158,11 +162,11 @@ ADDRESS_SANITIZED = BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefine
 asan:
 	ASAN_OPTIONS=quarantine_size_mb=16:intercept_tls_get_addr=0 \
 	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lib/lsan.supp:print_suppressions=0 \
-	    $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check-full
+	    $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check-suites
 # Models are read by a process that has been forked, and may have threads.
 tsan:
 	TSAN_OPTIONS='die_after_fork=0 ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
-	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check-full
+	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check-suites
 comma := ,
 
 # FUZZ_SECONDS a driver; FUZZ_SEED=N repeats a run; FUZZ='scene pack' chooses. Findings are kept in $(BUILD)/fuzz.
