@@ -193,6 +193,12 @@ def speed_over_cycles():
     return f"{min(found):.1f} to {max(found):.1f} times"
 
 
+def tests_take(check):
+    """As tests/times.txt has it."""
+    with open(os.path.join(DOCS, "..", "tests", "times.txt"), encoding="utf-8") as file:
+        return next(line.split(maxsplit=1)[1].strip() for line in file if line.split()[0] == check)
+
+
 def served(what, name):
     found, = rows("serve", what=what, figure=name)
     return found["value"]
@@ -236,7 +242,7 @@ def serve_measured():
 FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size, post_sizes_of,
                                    post_seconds, post_memory, post_variants, catalogue_rate, overhead, overhead_of, paper_size, paper_psnr,
                                    paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
-                                   lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles, serve_cost, serve_bytes,
+                                   lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles, tests_take, serve_cost, serve_bytes,
                                    serve_number, serve_size, serve_rate, serve_clients_rate, serve_measured, lamps_pack)}
 
 
