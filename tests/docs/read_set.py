@@ -127,9 +127,10 @@ def check_colors(name):
     lamps = lamps_of(manifest)
     finishes = {t["name"]: t["finishes"][-1] for t in manifest["targets"] if "finishes" in t and "normal_tilt" not in t}
     counts = sorted({0, 1, 2, len(names)} & set(range(len(names) + 1)))
-    # each number of colours with all lamps and finishes by turns, and all colours with each of them
+    # each number of colours with all lamps and finishes by turns; none and all of them with each of these
     cases = [(count, i % len(GAINS), i % 2) for i, count in enumerate(counts)]
-    cases += [(len(names), gained, refinished) for gained in range(len(GAINS)) for refinished in range(2)]
+    cases += [(count, gained, refinished) for count in (0, len(names)) for gained in range(len(GAINS))
+              for refinished in range(2)]
     rows, pictures = [], []
     for count, gained, refinished in sorted({(n, g if lamps else 0, f if finishes else 0) for n, g, f in cases}):
         colors = dict(zip(names[-count:] if count else [], COLORS))
@@ -142,7 +143,8 @@ def check_colors(name):
         lights = {lamp: gain * np.array(lamps[lamp]) for lamp, gain in gains.items()}
         pictures.append(read_set.Picture(path, textures, chosen, lights).make())
     with open("rows.csv", "w", newline="", encoding="ascii") as file:
-        table = csv.DictWriter(file, ["output", *names, *(f"light:{l}" for l in lamps), *(f"finish:{t}" for t in finishes)])
+        table = csv.DictWriter(file, ["output", *names, *(f"light:{l}" for l in lamps),
+                                      *(f"finish:{t}" for t in finishes)])
         table.writeheader()
         table.writerows(rows)
     run("retex-combine", "-q", path, "--batch", "rows.csv")
