@@ -286,6 +286,31 @@ static void a_block_below_a_room_is_none(void **unused)
     space_free(space);
 }
 
+/* A box of 2 x 1 x 4 on a ground of 7 x 7, which is 6 times as large, or of 4 x 5. */
+static void wide_ground_is_not_framed(void **unused)
+{
+    (void)unused;
+    const double from[] = {1, 0, 2}, to[] = {3, 1, 6};
+    for (int is_wide = 0; is_wide < 2; is_wide++) {
+        SpaceTriangles t = make(32, 16);
+        const double ground[4][3] = {{0, 0, is_wide ? 0 : 1.5},
+                                     {is_wide ? 7 : 4, 0, is_wide ? 0 : 1.5},
+                                     {is_wide ? 7 : 4, 0, is_wide ? 7 : 6.5},
+                                     {0, 0, is_wide ? 7 : 6.5}};
+        double low[3], high[3];
+        add_quad(&t, ground, 0);
+        add_box(&t, from, to, 0, 1u << 2, 1);
+        Space *space = create(&t);
+        space_standing_bounds(space, low, high);
+        for (int k = 0; k < 3; k++) {
+            const double margin = k == 1 ? 0 : .1 * (to[k] - from[k]);
+            assert_float_equal(low[k], is_wide ? from[k] - margin : ground[0][k], 1e-6);
+            assert_float_equal(high[k], is_wide ? to[k] + margin : k == 1 ? 1 : ground[2][k], 1e-6);
+        }
+        space_free(space);
+    }
+}
+
 /* A corner of a rectangle is above the point, at this height. */
 static double solid_angle(double a, double b, double height)
 {
@@ -661,6 +686,7 @@ int main(void)
         cmocka_unit_test(a_counter_is_furniture),
         cmocka_unit_test(a_solid_is_no_room),
         cmocka_unit_test(a_block_below_a_room_is_none),
+        cmocka_unit_test(wide_ground_is_not_framed),
         cmocka_unit_test(the_load_is_what_lines_meet),
         cmocka_unit_test(crowds_are_not_asked),
         cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),

@@ -71,7 +71,7 @@ static Framing framing_of(const Import *import, const ViewChoice *choice)
     const double scale = import->sense->scale;
     double low[3], high[3];
     Framing framing = {.angle = view->angle};
-    space_bounds(room->space, low, high);
+    space_standing_bounds(room->space, low, high);
     for (int k = 0; k < 3; k++) {
         const double ahead = view->eye[k] + 2 * room->metre * view->ahead[k];
         framing.at[k] = view->eye[k] * scale;

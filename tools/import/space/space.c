@@ -8,9 +8,13 @@
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
+#endif
 
 #include "import/space/space.h"
-#endif
+
+#define GROUND 0.05 /* of the height of all: as high is no more than ground */
+#define WIDER 3     /* as often as what stands on it the ground is as large, and more: that is around it */
+#define MARGIN 0.1  /* of it that is seen on each side, in widths of what stands */
 
 struct Space {
     RTCDevice device;
@@ -144,6 +148,32 @@ void space_bounds(const Space *space, double low[3], double high[3])
 {
     memcpy(low, space->low, sizeof space->low);
     memcpy(high, space->high, sizeof space->high);
+}
+
+void space_standing_bounds(const Space *space, double low[3], double high[3])
+{
+    const SpaceTriangles *t = &space->triangles;
+    double at[3] = {0, 0, 0}, most[3] = {0, 0, 0};
+    int is_begun = 0;
+    space_bounds(space, low, high);
+    const double ground = low[1] + GROUND * (high[1] - low[1]);
+    for (size_t i = 0; i < t->ntriangles; i++) {
+        const float *corners[] = {t->vertices[t->corners[i][0]], t->vertices[t->corners[i][1]],
+                                  t->vertices[t->corners[i][2]]};
+        if ((double)fmaxf(corners[0][1], fmaxf(corners[1][1], corners[2][1])) <= ground)
+            continue;
+        for (int c = 0; c < 3; c++, is_begun = 1)
+            for (int k = 0; k < 3; k += 2) {
+                at[k] = is_begun ? fmin(at[k], (double)corners[c][k]) : (double)corners[c][k];
+                most[k] = is_begun ? fmax(most[k], (double)corners[c][k]) : (double)corners[c][k];
+            }
+    }
+    if (!is_begun || (most[0] - at[0]) * (most[2] - at[2]) * WIDER > (high[0] - low[0]) * (high[2] - low[2]))
+        return;
+    for (int k = 0; k < 3; k += 2) {
+        const double margin = MARGIN * (most[k] - at[k]);
+        low[k] = fmax(low[k], at[k] - margin), high[k] = fmin(high[k], most[k] + margin);
+    }
 }
 
 const SpaceTriangles *space_triangles(const Space *space)

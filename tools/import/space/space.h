@@ -36,6 +36,9 @@ void space_free(Space *space);
 #define SPACE_MOST_LOAD 500.0
 double space_load(const SpaceTriangles *triangles, const double low[3], const double high[3]);
 void space_bounds(const Space *space, double low[3], double high[3]);
+/* The bounds of what is looked at from outside: without the ground around what stands on it, if that is several times
+ * as wide. */
+void space_standing_bounds(const Space *space, double low[3], double high[3]);
 const SpaceTriangles *space_triangles(const Space *space);
 /* The nearest hit with tmin < t < tmax. Returns 0 if there is none. */
 int space_ray(const Space *space, const double from[3], const double direction[3], double tmin, double tmax,

@@ -195,7 +195,7 @@ static void look_from_sides(const Room *room, const uint32_t *materials, Candida
 {
     const double usual = atan2(-0.82, 0.45) * 180 / PI;
     double low[3], high[3];
-    space_bounds(room->space, low, high);
+    space_standing_bounds(room->space, low, high);
     for (int k = 0; k < SIDES * ELEVATIONS; k++) {
         const double turned = 360.0 / SIDES * (k % SIDES);
         double side[3], eye[3], ahead[3];
