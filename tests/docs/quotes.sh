@@ -3,8 +3,8 @@
 set -u
 . tests/lib/tap.sh
 mkdir "$work/tests" "$work/as-is"
-cp -r tests/figures "$work/tests"
-cp -r README.md docs man "$work/as-is"
+cp -r tests/figures tests/times.txt "$work/tests"
+cp -r --parents README.md CONTRIBUTING.md tests/README.md docs man "$work/as-is"
 quote() { /usr/bin/python3 -B tests/figures/quote.py "$@" >found; }
 cd "$work" || exit 1
 # again: the texts as they are, the pages' figures beside them.
@@ -35,6 +35,7 @@ finds docs/faq.md 's/^- (A set takes.*two)$/- \1. \1/' \
     '^docs/faq.md: has more than once: A set takes \{overhead 1\} more time'
 finds docs/serve.csv 's/^(304,processor_ms),.*/\1,9/' \
     '^docs/serve.md:[0-9]+: serve_cost 304: the text has .* the page 9 ms$'
+finds tests/README.md 's/[0-9]+ minutes/99 minutes/' '^tests/README.md:[0-9]+: tests_take check: the text has 99 minutes, the page [0-9]+ minutes$'
 finds docs/serve.csv '/^304,/d' '^docs/serve.md:[0-9]+: serve_cost 304: .*has no row with'
 
 finds docs/faq.md 's/(One core makes)/It takes 3.5 s. \1/' '^docs/faq.md:[0-9]+: no page makes the figure 3.5 s: '
