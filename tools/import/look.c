@@ -272,9 +272,7 @@ static int look_and_choose(Look *look, const LookParams *params, RetexError *err
     if (!code && look->is_seen)
         code = balance_windows(look, params, &seen, err);
     look->is_black = !(seen.bright > 0) || seen.stops >= MOST_STOPS;
-    const int has_sky = number_after(params, LOOK_DECLARE(LOOK_ADDED_SKY), "", NAN) > 0;
-    const int is_white = has_sky ? meter_lit(&seen, 0) < 0.9 : seen.white >= 0.1; /* its own windows may be */
-    if (code || look->is_black || (fabs(seen.stops) < 1.5 && !is_white))
+    if (code || look->is_black || (fabs(seen.stops) < 1.5 && seen.white < 0.1))
         return code;
     look->exposure = fmax(meter_whole_stops(&seen), -RETEX_EXPOSURE_MAX);
     return look_expose(params, look->exposure, err);
