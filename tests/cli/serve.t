@@ -50,7 +50,7 @@ $ serve uploads documented off heads
 > off
 > heads
 $ ln -s uploads linked
-$ retex-serve rooms --port 0 --uploads linked/
+$ timeout 20 retex-serve rooms --port 0 --uploads linked/
 ! retex-serve: error: --uploads: linked/ is a link; give the folder that it leads to
 = 2
 $ mkdir moving away
