@@ -4,7 +4,7 @@ $ skip-unless /usr/bin/python3 -c 'import numpy, OpenImageIO'
 # The file: one part, metadata and manifests as the specification has them, largest coverage first.
 % # What mattes.py says of a file: mattes WHAT FILE …
 % mattes() { /usr/bin/python3 "$TESTS/mattes.py" "$@"; }
-$ retex-render -q --size 48x36 --spp 64 -t Floor -t Wall -t Gauze -t Glass "$TESTS/mattes.pov" --mattes m.exr -o set.exr
+$ retex-render -q --size 64x48 --spp 64 -t Floor -t Wall -t Gauze -t Glass "$TESTS/mattes.pov" --mattes m.exr -o set.exr
 $ mattes layout m.exr
 > parts 1 channels 64 of Cryptomatte 48 floats True
 > CryptoObject MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
@@ -32,7 +32,7 @@ $ mattes sums m.exr
 % shining() {
 %     name=$1
 %     shift
-%     retex-render -q --size 48x36 --plain -D "Emit=\"$name\"" "$@" "$TESTS/mattes.pov" -o "$name.exr"
+%     retex-render -q --size 64x48 --plain -D "Emit=\"$name\"" "$@" "$TESTS/mattes.pov" -o "$name.exr"
 % }
 $ for n in Ground Back Cut Twin lone Veil Grid Pole; do
 +     shining $n --spp 64 -D Direct=1
@@ -72,7 +72,7 @@ $ for n in Floor Wall Gauze; do
 +     echo $n.exr mask_$n+mask_${n}_transmitted+mask_${n}_reflected
 +     echo $n.exr CryptoThroughMaterial/$n
 + done >pairs
-$ mattes same m.exr 46 $(cat pairs)
+$ mattes same m.exr 48 $(cat pairs)
 > mask_Floor+mask_Floor_transmitted+mask_Floor_reflected same
 > CryptoThroughMaterial/Floor same
 > mask_Wall+mask_Wall_transmitted+mask_Wall_reflected same
@@ -83,7 +83,7 @@ $ for n in Ground Cut Twin; do
 +     shining $n --spp 256
 +     echo $n.exr CryptoThroughObject/$n
 + done >pairs
-$ mattes same m.exr 46 $(cat pairs)
+$ mattes same m.exr 48 $(cat pairs)
 > CryptoThroughObject/Ground same
 > CryptoThroughObject/Cut same
 > CryptoThroughObject/Twin same
@@ -95,7 +95,7 @@ $ mattes where m.exr mask_Floor_reflected Pane Ball
 > mask_Floor_reflected only in Pane Ball True
 
 # By the picture's lens and filter.
-$ retex-render -q --size 48x36 --spp 64 -D Lens=1 --filter gaussian "$TESTS/mattes.pov" --mattes l.exr -o p.exr
+$ retex-render -q --size 64x48 --spp 64 -D Lens=1 --filter gaussian "$TESTS/mattes.pov" --mattes l.exr -o p.exr
 $ for n in Ground Cut; do
 +     shining $n --spp 64 -D Lens=1 --filter gaussian -D Direct=1
 +     echo $n.exr CryptoObject/$n

@@ -122,7 +122,7 @@ $ cat >t.csv <<'END'
 $ sh c set.exr --batch t.csv
 $ cmp one.exr three.exr
 $ sh m waves10.ppm:scale=2:rotate=90 color.ppm -o a.exr
-$ sh near a.exr four.exr 48
+$ sh near a.exr four.exr 49
 $ cp waves10.ppm w.0007.ppm
 $ sh c set.exr --frames 7 --texture:normal=w.%04d.ppm:scale=2 Wall=color.ppm -o f.%04d.exr
 $ cmp one.exr f.0007.exr

@@ -2,7 +2,7 @@
 import base64, hashlib, hmac, json, subprocess, sys
 
 sys.dont_write_bytecode = True
-from serve_ask import ask, expect, run, send
+from serve_ask import ask, expect, run, send, wait_for
 
 OLD, NEW = bytes(range(16)), bytes(range(100, 164))  # the shortest and the longest key
 
@@ -46,6 +46,7 @@ def signed_urls(server):
     for url in (*moved, *(url + path for url in moved), f'/x?s={right}', path + f'?s={right}', f'/wp-login.php?{right}'):
         expect(url, ask(server, url).status, 403)
     ask(server, '/favicon.ico'), ask(server, '/v1/small/Floor=oak;Floor.scale=2/unsigned.png')
+    wait_for(lambda: '/unsigned.png' in open('log').read())  # a line is written after its answer
     told = open('log').read()
     signatures = [signature(key, path) for key in (NEW, OLD, bytes(16), OLD + b'\1')] + [other]
     expect('no signature in the log', [s for s in signatures for at in range(32) if s[at:at + 12] in told], [])

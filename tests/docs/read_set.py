@@ -299,7 +299,7 @@ if not words:
     check_texture("layout paper", "waves.png", 55)
     check_texture("several targets", "waves.png", 55)
     check_texture("one sample a pixel", "waves.png", 70)
-    check_samples("one target", 65)
+    check_samples("one target", 68)
     check_samples("one sample a pixel", 90)
     check_refusals()
     check_command()

@@ -99,7 +99,7 @@ test("lamps have their own light: the picture is that of the set with the lamp i
 
 /* Of one target and of two, on colours and pictures, where a texture is clear, and left of the split. */
 test("maps of finishes: drawn as retex-combine draws them", () => {
-  tool("retex-render", "-q", "--size", "32x24", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss,matt", "--finish", "Wall=original,satin",
+  tool("retex-render", "-q", "--size", "40x30", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss,matt", "--finish", "Wall=original,satin",
     new URL("../cli/finishes.pov", import.meta.url).pathname, "-o", "shiny.exr");
   tool("retex-pack", "-q", "shiny.exr", "--web", "shiny");
   const { room, draw } = open("shiny"), { parameterColors } = player();
@@ -117,7 +117,7 @@ for folder, last in ("rough", 0), ("gloss", 0), ("arm", 1):
   for c in range(3): rows[:, :, c] = rows[:, :, c] if c == last else 90
   put(f"{folder}/wood_{folder}.png", rows)`);
   for (const [what, edits, decibels, chosen = {}, split = 0] of [
-    ["a grey map, right of the split", { Floor: ["wood.png", "grey.png"] }, 34, {}, 8],
+    ["a grey map, right of the split", { Floor: ["wood.png", "grey.png"] }, 34, {}, 10],
     ["two maps", { Floor: ["wood.png", "colors.png", "scale=2:rotate=20:offset=0.1,0.3", { scale: [2, 2], rotate: 20, offset: [0.1, 0.3] }], Wall: [[0.3, 0.5, 0.8], "grey.png"] }, 34],
     ["laid repeats", { Floor: ["wood.png", "grey.png", "width=2,1.5:repeat=brick:grout=.3:saturation=.4", { width: [2, 1.5], repeat: "brick", grout: 0.3, saturation: 0.4 }] }, 34],
     ["a folder with roughness", { Floor: ["rough"] }, 34],
@@ -140,10 +140,10 @@ for folder, last in ("rough", 0), ("gloss", 0), ("arm", 1):
     const numbers = room.targets.map((t) => (chosen[t.name] ? 1 + t.finishes.indexOf(chosen[t.name]) : t.finish));
     const colors = parameterColors(room, [], numbers.map((f, t) => (edits[room.targets[t].name] ? null : f)));
     const picture = draw(textures, { colors, finishes: numbers, split });
-    least(psnr(picture, images(["expected.png"])[0], [split, 32]), decibels, what);
+    least(psnr(picture, images(["expected.png"])[0], [split, 40]), decibels, what);
     if (!split) continue;
     tool("retex-combine", "-q", "shiny.exr", "-o", "before.png");
-    least(psnr(picture, images(["before.png"])[0], [0, split]), 33, "left of it");
+    least(psnr(picture, images(["before.png"])[0], [0, split]), 36, "left of it");
   }
 });
 

@@ -20,7 +20,7 @@ struct Space {
     RTCDevice device;
     RTCScene scene;
     SpaceTriangles triangles;
-    double low[3], high[3];
+    double low[3], high[3], standing_low[3], standing_high[3];
     RetexError error; /* Embree's first */
 };
 
@@ -32,17 +32,35 @@ static void record_error(void *context, enum RTCError code, const char *text)
                    text ? text : "unknown error");
 }
 
-static void find_bounds(Space *space)
+/* Of the triangles that rise above a height. */
+static void find_bounds(const SpaceTriangles *t, double above, double low[3], double high[3])
 {
-    const SpaceTriangles *t = &space->triangles;
     for (int k = 0; k < 3; k++)
-        space->low[k] = INFINITY, space->high[k] = -INFINITY;
-    for (size_t i = 0; i < 3 * t->ntriangles; i++) {
-        const float *v = t->vertices[t->corners[i / 3][i % 3]];
+        low[k] = INFINITY, high[k] = -INFINITY;
+    for (size_t i = 0; i < t->ntriangles; i++) {
+        const uint32_t *corners = t->corners[i];
+        const float *v[] = {t->vertices[corners[0]], t->vertices[corners[1]], t->vertices[corners[2]]};
+        if ((double)fmaxf(v[0][1], fmaxf(v[1][1], v[2][1])) <= above)
+            continue;
         for (int k = 0; k < 3; k++) {
-            space->low[k] = fmin(space->low[k], (double)v[k]);
-            space->high[k] = fmax(space->high[k], (double)v[k]);
+            low[k] = fmin(low[k], (double)fminf(v[0][k], fminf(v[1][k], v[2][k])));
+            high[k] = fmax(high[k], (double)fmaxf(v[0][k], fmaxf(v[1][k], v[2][k])));
         }
+    }
+}
+
+static void find_standing(Space *space)
+{
+    double low[3], high[3], *to_low = space->standing_low, *to_high = space->standing_high;
+    find_bounds(&space->triangles, space->low[1] + GROUND * (space->high[1] - space->low[1]), low, high);
+    memcpy(to_low, space->low, sizeof space->low);
+    memcpy(to_high, space->high, sizeof space->high);
+    if (!(low[0] <= high[0]) ||
+        WIDER * (high[0] - low[0]) * (high[2] - low[2]) > (to_high[0] - to_low[0]) * (to_high[2] - to_low[2]))
+        return;
+    for (int k = 0; k < 3; k += 2) {
+        const double margin = MARGIN * (high[k] - low[k]);
+        to_low[k] = fmax(to_low[k], low[k] - margin), to_high[k] = fmin(to_high[k], high[k] + margin);
     }
 }
 
@@ -91,7 +109,8 @@ int space_create(Space **out, SpaceTriangles *triangles, RetexError *err)
             code = retex_fail(err, RETEX_ENOMEM, "out of memory");
     }
     if (!code) {
-        find_bounds(space);
+        find_bounds(&space->triangles, -INFINITY, space->low, space->high);
+        find_standing(space);
         code = space_load(&space->triangles, space->low, space->high) > SPACE_MOST_LOAD
                    ? retex_fail(err, RETEX_ELIMIT, "too many triangles lie at one place")
                    : add_geometry(space, err);
@@ -152,28 +171,8 @@ void space_bounds(const Space *space, double low[3], double high[3])
 
 void space_standing_bounds(const Space *space, double low[3], double high[3])
 {
-    const SpaceTriangles *t = &space->triangles;
-    double at[3] = {0, 0, 0}, most[3] = {0, 0, 0};
-    int is_begun = 0;
-    space_bounds(space, low, high);
-    const double ground = low[1] + GROUND * (high[1] - low[1]);
-    for (size_t i = 0; i < t->ntriangles; i++) {
-        const float *corners[] = {t->vertices[t->corners[i][0]], t->vertices[t->corners[i][1]],
-                                  t->vertices[t->corners[i][2]]};
-        if ((double)fmaxf(corners[0][1], fmaxf(corners[1][1], corners[2][1])) <= ground)
-            continue;
-        for (int c = 0; c < 3; c++, is_begun = 1)
-            for (int k = 0; k < 3; k += 2) {
-                at[k] = is_begun ? fmin(at[k], (double)corners[c][k]) : (double)corners[c][k];
-                most[k] = is_begun ? fmax(most[k], (double)corners[c][k]) : (double)corners[c][k];
-            }
-    }
-    if (!is_begun || (most[0] - at[0]) * (most[2] - at[2]) * WIDER > (high[0] - low[0]) * (high[2] - low[2]))
-        return;
-    for (int k = 0; k < 3; k += 2) {
-        const double margin = MARGIN * (most[k] - at[k]);
-        low[k] = fmax(low[k], at[k] - margin), high[k] = fmin(high[k], most[k] + margin);
-    }
+    memcpy(low, space->standing_low, sizeof space->standing_low);
+    memcpy(high, space->standing_high, sizeof space->standing_high);
 }
 
 const SpaceTriangles *space_triangles(const Space *space)

@@ -100,6 +100,14 @@ static int choose_interreflection(const RetexCompactLight *light, const RetexCom
     return coarsest(&all, INTERREFLECTION, ignored, most);
 }
 
+/* most: what may be lost. */
+static int broad_scale(const RetexCompactDetail *clusters, const RetexCompactParams *params, double most)
+{
+    if (params->broad)
+        return params->broad;
+    return params->noise <= NOISE_KEPT ? 1 : coarsest(clusters, CLUSTERS, params->noise, most);
+}
+
 static void choose_kinds(RetexCompactScales *scales, const RetexCompactLight *light, const RetexCompactDetails *details,
                          const RetexCompactParams *params)
 {
@@ -116,12 +124,10 @@ static void choose_kinds(RetexCompactScales *scales, const RetexCompactLight *li
         const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP;
         /* gains of noisy light move noise from one term to another, whose texture may be brighter */
         const double ignored = light->set->denoised ? params->noise : 0;
-        scales->clusters[i] = sharp                                           ? 1
-                              : kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? further
-                              : params->broad                                 ? params->broad
-                              : params->noise <= NOISE_KEPT
-                                  ? 1
-                                  : coarsest(&details->clusters[i], CLUSTERS, params->noise, most);
+        scales->clusters[i] = sharp ? 1
+                              : kind->kind == RETEX_FOOTPRINT_INTERREFLECTION
+                                  ? further
+                                  : broad_scale(&details->clusters[i], params, most);
         scales->gains[i] = params->gain ? params->gain
                            : unseen     ? 1 << (RETEX_COMPACT_STEPS - 1)
                                         : coarsest(gains, sharp ? GAINS : BROAD_GAINS, ignored, most);

@@ -34,6 +34,7 @@ typedef enum Kind {
     WEIGHT,            /* in mixtures; scale: 1 */
     NOISE,             /* scale: the value */
     CHOICE_NOISE,      /* of light of each choice of finishes; scale: the value */
+    CHOICE_PICTURE,    /* of each choice; scale: the value */
     GUIDE,             /* scale: 1 */
     POSITION,          /* scale: the value */
     KINDS
@@ -59,6 +60,7 @@ static const struct {
     [WEIGHT] = {0.25, 1.0 / 512, 1.0 / 32},
     [NOISE] = {0, 1.0 / 2, 1.0 / 2},
     [CHOICE_NOISE] = {0, 1, 1},
+    [CHOICE_PICTURE] = {0, 1.0 / 256, 1.0 / 256},
     [GUIDE] = {0, 1.0 / 256, 1.0 / 256},
     [POSITION] = {0, 1.0 / 2048, 1.0 / 2048},
 };
@@ -445,6 +447,9 @@ static int lone_kind(const RetexPrecision *plan, const RetexSet *set, int part)
     for (int k = 0; k < plan->signals.count && plan->has_finishes; k++)
         if (plan->signals.of[k].noise == part && plan->signals.of[k].lamp >= 0)
             return CHOICE_NOISE;
+    for (int t = 0; t < set->nterms && plan->has_finishes; t++)
+        if (set->terms[t].radiance == part && set->terms[t].role == RETEX_ROLE_LAMP_PICTURE)
+            return CHOICE_PICTURE;
     if (retex_name_is_noise(name))
         return NOISE;
     if (!retex_name_is_feature(name))
