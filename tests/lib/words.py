@@ -16,7 +16,6 @@ ELSEWHERE = {
     "manifest": r"tools/batch/",  # journal
     "signal": r"renderer/(?!film/)",
     "slice": r"tools/libretex/(?!pack/)",
-    "slot": r"(renderer|tools/(?!import/|libretex/(retexture|solve)/))",  # bucket, member
     "strip": r"tools/libretex/exr/|renderer/film/",  # band
 }
 NO_NAME = r'/\*.*?\*/|//[^\n]*|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|\b__\w+'

@@ -134,19 +134,22 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
 {
     RetexSamples *samples = small_samples(set, values), *scatter = small_samples(set, variances);
     const float **rows = calloc((size_t)set->nfootprints, sizeof *rows);
-    float *scratch = malloc(sizeof *scratch * retex_estimate_scratch(set));
-    RetexPolynomial polynomial;
-    RetexPolynomialRow row;
+    assert_true(rows);
+    RetexEdited edited;
+    RetexDerivatives derivatives;
+    RetexViewReader reader;
     RetexError err = {0};
-    assert_true(rows && scratch);
     for (int i = 0; i < set->nfootprints; i++)
         rows[i] = scatter->images[i].pixels;
-    test_must(retex_polynomial_open(&polynomial, set, samples, NULL, NULL, POLYNOMIAL_APART, 1, &err), &err);
-    test_must(retex_polynomial_row_open(&row, &polynomial, &err), &err);
-    test_must(retex_polynomial_row_make(&row, 0, &err), &err);
-    test_must(retex_estimate_row(&row, 0, rows, rows, scratch, rgb, &err), &err);
-    retex_polynomial_row_close(&row);
-    retex_polynomial_close(&polynomial);
+    test_must(retex_edited_open(&edited, set, samples, NULL, NULL, EDITED_TERMS, 1, &err), &err);
+    test_must(retex_derivatives_open(&derivatives, &edited, &err), &err);
+    test_must(retex_view_reader_open(&reader, &edited.view, &err), &err);
+    float *scratch = malloc(sizeof *scratch * retex_estimate_scratch(&derivatives));
+    assert_true(scratch);
+    test_must(retex_estimate_row(&derivatives, &reader, 0, rows, rows, scratch, rgb, &err), &err);
+    retex_view_reader_close(&reader);
+    retex_derivatives_close(&derivatives);
+    retex_edited_close(&edited);
     free(scratch);
     free(rows);
     retex_samples_close(&samples);

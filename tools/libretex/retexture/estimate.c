@@ -21,12 +21,14 @@
 
 #include "base/params.h"
 #include "retexture/estimate_row.h"
-#include "retexture/polynomial_strips.h"
+#include "retexture/strips.h"
 #include "retexture/sample_row.h"
 #include "set/parts.h"
 #include "texture/pyramid.h"
 
 typedef struct Estimate {
+    RetexEdited edited;
+    RetexDerivatives derivatives;
     RetexTexture *const *textures;
     RetexTexture *squares[RETEX_MAX_TARGETS];
 } Estimate;
@@ -51,10 +53,12 @@ static void close_scatter(Scatter *s, const RetexSet *set)
     free(s->scratch);
 }
 
-static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
+static int open_scatter(Scatter *s, const Estimate *estimate, RetexError *err)
 {
+    const RetexSet *set = estimate->edited.view.set;
     const size_t count = (size_t)set->nfootprints + 1;
-    *s = (Scatter){malloc(sizeof *s->scratch * retex_estimate_scratch(set)), calloc(count, sizeof *s->variances),
+    const size_t scratch = retex_estimate_scratch(&estimate->derivatives);
+    *s = (Scatter){malloc(sizeof *s->scratch * scratch), calloc(count, sizeof *s->variances),
                    calloc(count, sizeof *s->means), calloc(count, sizeof *s->rows), calloc(count, sizeof *s->at)};
     if (s->scratch && s->variances && s->means && s->rows && s->at)
         return RETEX_OK;
@@ -63,17 +67,17 @@ static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
 
 /* Loads the variance of a footprint for row y of the picture; several rows of the picture may share one of a reduced
  * footprint. */
-static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRow *row, int footprint, int y,
+static int look_up(Scatter *s, const Estimate *estimate, const RetexViewReader *reader, int footprint, int y,
                    RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
+    const RetexSet *set = reader->view->set;
     const RetexFootprint *f = &set->footprints[footprint];
     const RetexTexture *texture = estimate->textures[f->target];
     const int own = texture ? y / retex_set_footprint_scale(set, footprint) : 0;
     RetexFootprintRow from;
     if (!texture || s->at[footprint] == own + 1)
         return RETEX_OK;
-    int code = retex_footprint_row_read(&from, row->reader, set, f, own, 0, err);
+    int code = retex_footprint_row_read(&from, reader->set, set, f, own, 0, err);
     float **to = &s->rows[footprint];
     const size_t numbers = 3 * (size_t)from.width, rows = retex_texture_has_finishes(texture) ? 2 : 1;
     if (!code && !*to && !(*to = malloc(sizeof **to * rows * numbers)))
@@ -90,17 +94,18 @@ static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRo
     return RETEX_OK;
 }
 
-static int estimate_strip(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int estimate_strip(const void *context, RetexViewReader *reader, int y0, int y1, float *rgb, RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
+    const Estimate *estimate = context;
+    const RetexSet *set = reader->view->set;
     Scatter scatter;
-    int code = open_scatter(&scatter, set, err);
+    int code = open_scatter(&scatter, estimate, err);
     for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)set->width) {
-        code = retex_polynomial_row_make(row, y, err);
         for (int f = 0; !code && f < set->nfootprints; f++)
-            code = look_up(&scatter, context, row, f, y, err);
+            code = look_up(&scatter, estimate, reader, f, y, err);
         if (!code)
-            code = retex_estimate_row(row, y, scatter.variances, scatter.means, scatter.scratch, rgb, err);
+            code = retex_estimate_row(&estimate->derivatives, reader, y, scatter.variances, scatter.means,
+                                      scatter.scratch, rgb, err);
     }
     close_scatter(&scatter, set);
     return code;
@@ -112,20 +117,22 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
 {
     Estimate estimate = {.textures = textures};
     RetexCombineParams own = RETEX_COMBINE_INIT;
-    RetexPolynomial polynomial;
     if (RETEX_PARAMS_COPY(&own, params, err))
         return RETEX_EINVAL;
     RetexRowSpan rows = {0, set->height};
     if (own.y1 > own.y0)
         rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
-    int code = retex_polynomial_open(&polynomial, set, samples, textures, &own, POLYNOMIAL_APART, nthreads, err);
+    int code = retex_edited_open(&estimate.edited, set, samples, textures, &own, EDITED_TERMS, nthreads, err);
+    if (!code)
+        code = retex_derivatives_open(&estimate.derivatives, &estimate.edited, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);
     if (!code)
-        code = retex_polynomial_strips(&polynomial, rows.begin, rows.end, estimate_strip, &estimate, sink, context,
-                                       nthreads, err);
+        code = retex_view_strips(&estimate.edited.view, rows.begin, rows.end, estimate_strip, &estimate, sink, context,
+                                 nthreads, err);
     retex_textures_close(estimate.squares);
-    retex_polynomial_close(&polynomial);
+    retex_derivatives_close(&estimate.derivatives);
+    retex_edited_close(&estimate.edited);
     return code;
 }

@@ -3,11 +3,10 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <retex/host/assert.h>
 
-#include "retexture/polynomial_factors.h"
-#include "retexture/polynomial_finishes.h"
 #include "set/set.h"
 
 /* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
@@ -25,71 +24,104 @@ static size_t row_numbers(const RetexSet *set)
     return 3 * (size_t)set->width;
 }
 
-/* ---- what there are derivatives by ----
- *
- * Rows of derivatives: of footprints and mixtures; where targets have finishes, of these with each finish, and of
- * gates; behind them, by target and finish, light that meets the target again. */
+/* ---- what there are derivatives by ---- */
 
-static int texture_count(const RetexSet *set)
+int retex_derivatives_open(RetexDerivatives *d, const RetexEdited *edited, RetexError *err)
 {
-    return set->nfootprints + set->nmixtures;
+    const RetexView *view = &edited->view;
+    RETEX_ASSERT(edited->of == EDITED_TERMS);
+    *d = (RetexDerivatives){.edited = edited, .rows = malloc(sizeof *d->rows * (size_t)(view->nimages + 1))};
+    if (!d->rows)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
+    for (int i = 0; i < view->nimages; i++) {
+        const RetexViewImage *image = &view->images[i];
+        const int varies = image->kind == VIEW_FOOTPRINT || image->kind == VIEW_GATE ||
+                           (image->kind == VIEW_MIXTURE && image->finish != VIEW_ORIGINALS);
+        d->rows[i] = varies ? d->count++ : -1;
+    }
+    return RETEX_OK;
 }
 
-static int first_gate(const RetexSet *set)
+void retex_derivatives_close(RetexDerivatives *d)
 {
-    return texture_count(set) * (1 + RETEX_FINISHES_MAX);
+    free(d->rows);
+    *d = (RetexDerivatives){0};
 }
 
-static int first_later(const RetexSet *set)
+/* The row of an image of that kind, index and finish, or NULL. */
+static const float *row_of(const RetexDerivatives *d, const float *derivatives, size_t n, RetexViewKind kind, int index,
+                           int finish)
 {
-    return first_gate(set) + RETEX_MAX_TARGETS * RETEX_FINISHES_MAX;
+    const int image = retex_view_find(&d->edited->view, kind, index, finish);
+    return image < 0 ? NULL : derivatives + (size_t)d->rows[image] * n;
 }
 
-static int row_count(const RetexSet *set)
+/* The number of the row of light that meets a target again with a finish. */
+static size_t later_row(const RetexDerivatives *d, int target, int finish)
 {
-    return retex_set_has_finishes(set) ? first_later(set) + RETEX_MAX_TARGETS * RETEX_FINISHES_MAX : texture_count(set);
+    return (size_t)(d->count + target * RETEX_FINISHES_MAX + finish);
 }
 
-/* The row of a slot, or -1: further hits and images do not vary. Slots of textures come first; further hits follow,
- * then what has finishes, in the order of rows. */
-static int derivative_row(const RetexSet *set, int slot)
+static size_t row_count(const RetexDerivatives *d)
 {
-    const int textures = texture_count(set), others = textures + set->nparts + textures;
-    return slot < textures ? slot : slot >= others ? slot - others + textures : -1;
+    const int has_later = retex_set_has_finishes(d->edited->view.set);
+    return has_later ? later_row(d, RETEX_MAX_TARGETS, 0) : (size_t)d->count;
 }
 
-size_t retex_estimate_scratch(const RetexSet *set)
+size_t retex_estimate_scratch(const RetexDerivatives *d)
 {
-    /* the sum and the change by further hits first; last what gates need: weights by finish, and scratch */
-    return row_numbers(set) * (2 + (size_t)row_count(set) + RETEX_FINISHES_MAX + 3);
+    /* the sum, the change by further hits, and light of a term beside the derivatives */
+    return row_numbers(d->edited->view.set) * (3 + row_count(d));
 }
 
-/* The product of a monomial's factors of quantity FURTHER at a number of its row. */
-static float further_factor(const RetexSet *set, const RetexMonomial *m, size_t i)
+/* ---- the derivatives of a term ---- */
+
+/* A term, and of its factors, which begin at 1, the images at their own sizes and their rows of derivatives. */
+typedef struct Factors {
+    const RetexViewTerm *term;
+    int count; /* radiance included */
+    const RetexViewImage *images[VIEW_INPUTS_MAX];
+    int rows[VIEW_INPUTS_MAX]; /* -1: it does not vary */
+} Factors;
+
+static Factors factors_of(const RetexDerivatives *d, const RetexViewTerm *term)
+{
+    const RetexView *view = &d->edited->view;
+    Factors f = {.term = term, .count = term->product->ninputs};
+    for (int k = 1; k < f.count; k++) {
+        f.images[k] = retex_view_inner(view, term->product->inputs[k]);
+        f.rows[k] = d->rows[f.images[k] - view->images];
+    }
+    return f;
+}
+
+/* The product of a term's factors of quantity FURTHER at a number of its row. */
+static float further_factor(const Factors *f, size_t i)
 {
     float product = 1;
-    for (int k = 0; k < m->nfactors; k++)
-        if (retex_polynomial_factor(set, m->slots[k]).quantity == RETEX_QUANTITY_FURTHER)
-            product *= m->factors[k][i];
+    for (int k = 1; k < f->count; k++)
+        if (f->images[k]->kind == VIEW_FURTHER)
+            product *= f->term->rows[k][i];
     return product;
 }
 
 /* Adds light that meets a target with a map more than once. */
-static void add_later(const RetexSet *set, const RetexMonomial *m, const int rows[], size_t n, const float *light,
+static void add_later(const RetexDerivatives *d, const Factors *f, size_t n, const float *light,
                       float *restrict derivatives)
 {
+    const RetexSet *set = d->edited->view.set;
     int hits = 0;
-    for (int k = 0; k < m->nfactors; k++)
-        hits += rows[k] >= 0 && rows[k] < first_gate(set);
-    for (int k = 0; k < m->nfactors && hits > 1; k++) {
-        const RetexFactor factor = retex_polynomial_factor(set, m->slots[k]);
-        const int finish = retex_quantity_finish(factor.quantity);
-        if (finish < 0)
+    for (int k = 1; k < f->count; k++)
+        hits += f->rows[k] >= 0 && f->images[k]->kind != VIEW_GATE;
+    for (int k = 1; k < f->count && hits > 1; k++) {
+        const RetexViewImage *image = f->images[k];
+        if (f->rows[k] < 0 || image->finish < 0)
             continue;
-        const int of = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
-                                                             : set->mixtures[factor.index].shares[0].footprint;
-        const int target = factor.kind == POLYNOMIAL_GATE ? factor.index : set->footprints[of].target;
-        float *to = derivatives + (size_t)(first_later(set) + target * RETEX_FINISHES_MAX + finish) * n;
+        const int footprint = image->kind == VIEW_FOOTPRINT ? image->index
+                              : image->kind == VIEW_MIXTURE ? set->mixtures[image->index].shares[0].footprint
+                                                            : -1;
+        const int target = footprint < 0 ? image->index : set->footprints[footprint].target;
+        float *to = derivatives + later_row(d, target, image->finish) * n;
         for (size_t i = 0; i < n; i++)
             to[i] += light[i];
     }
@@ -97,42 +129,37 @@ static void add_later(const RetexSet *set, const RetexMonomial *m, const int row
 
 /* Adds the derivatives of one term to those of the row, and the term itself to its sum, and to `change` what further
  * hits change in it. light: scratch of n numbers. */
-static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
+static void add_term(const RetexDerivatives *d, const RetexViewTerm *term, size_t n, float *restrict sum,
                      float *restrict change, float *restrict derivatives, float *restrict light)
 {
-    int rows[RETEX_MAX_FACTORS + 1];
-    for (int k = 0; k < m->nfactors; k++) {
-        RETEX_ASSERT(m->slots[k] >= 0); /* terms are apart: none has a product of reduced factors */
-        rows[k] = derivative_row(set, m->slots[k]);
-        RETEX_ASSERT(rows[k] < row_count(set));
-    }
+    const Factors f = factors_of(d, term);
     for (size_t i = 0; i < n; i++) {
-        float radiance = m->radiance[i];
+        float radiance = term->rows[0][i];
         light[i] = 0;
-        for (int k = 0; k < m->nfactors; k++)
-            if (rows[k] < 0)
-                radiance *= m->factors[k][i];
+        for (int k = 1; k < f.count; k++)
+            if (f.rows[k] < 0)
+                radiance *= term->rows[k][i];
         if (radiance == 0)
             continue;
-        for (int k = 0; k < m->nfactors; k++) {
+        for (int k = 1; k < f.count; k++) {
             float others = radiance;
-            if (rows[k] < 0)
+            if (f.rows[k] < 0)
                 continue;
-            for (int j = 0; j < m->nfactors; j++)
-                if (j != k && rows[j] >= 0)
-                    others *= m->factors[j][i];
-            derivatives[(size_t)rows[k] * n + i] += others;
+            for (int j = 1; j < f.count; j++)
+                if (j != k && f.rows[j] >= 0)
+                    others *= term->rows[j][i];
+            derivatives[(size_t)f.rows[k] * n + i] += others;
         }
-        for (int k = 0; k < m->nfactors; k++)
-            if (rows[k] >= 0)
-                radiance *= m->factors[k][i];
+        for (int k = 1; k < f.count; k++)
+            if (f.rows[k] >= 0)
+                radiance *= term->rows[k][i];
         sum[i] += light[i] = radiance;
-        const float further = further_factor(set, m, i);
+        const float further = further_factor(&f, i);
         if (further > 0)
             change[i] += radiance - radiance / further;
     }
-    if (retex_set_has_finishes(set))
-        add_later(set, m, rows, n, light, derivatives);
+    if (retex_set_has_finishes(d->edited->view.set))
+        add_later(d, &f, n, light, derivatives);
 }
 
 /* A row of a part for row y of the picture; the part may be reduced. */
@@ -141,12 +168,12 @@ typedef struct PartRow {
     int scale, channels;
 } PartRow;
 
-static int read_part(PartRow *of, const RetexPolynomialRow *row, int part, int y, RetexError *err)
+static int read_part(PartRow *of, RetexViewReader *reader, int part, int y, RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
+    const RetexSet *set = reader->view->set;
     const RetexImage *image = &set->parts[part].image;
     *of = (PartRow){.scale = retex_set_scale(set, image), .channels = image->channels};
-    return retex_row_reader_get(row->reader, part, y / of->scale, &of->row, err);
+    return retex_row_reader_get(reader->set, part, y / of->scale, &of->row, err);
 }
 
 /* The value of colour c at pixel x of the picture; a part may have one channel for all colours. */
@@ -166,14 +193,17 @@ static int is_zero(const float *row, size_t n)
 }
 
 /* Distributes the derivative of a mixture to its footprints by their shares. */
-static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *mixture, int y, size_t n,
-                             const float *restrict of_mixture, float *restrict derivatives, RetexError *err)
+static int share_derivatives(const RetexDerivatives *d, RetexViewReader *reader, int image, int y, size_t n,
+                             float *restrict derivatives, RetexError *err)
 {
+    const RetexViewImage *of_view = &reader->view->images[image];
+    const RetexMixture *mixture = &reader->view->set->mixtures[of_view->index];
+    const float *of_mixture = derivatives + (size_t)d->rows[image] * n;
     PartRow of[RETEX_SHARES_MAX];
     if (is_zero(of_mixture, n)) /* no term uses the mixture */
         return RETEX_OK;
     for (int k = 0; k < mixture->nshares; k++) {
-        int code = read_part(&of[k], row, mixture->shares[k].weight, y, err);
+        int code = read_part(&of[k], reader, mixture->shares[k].weight, y, err);
         if (code)
             return code;
     }
@@ -186,7 +216,7 @@ static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *
             sum += weights[k];
         }
         for (int k = 0; k < mixture->nshares && sum > 0; k++)
-            derivatives[(size_t)mixture->shares[k].footprint * n + i] += of_mixture[i] * weights[k] / sum;
+            derivatives[(size_t)d->rows[of_view->inputs[k]] * n + i] += of_mixture[i] * weights[k] / sum;
     }
     return RETEX_OK;
 }
@@ -234,29 +264,44 @@ static float difference_of_squares(const RowMap *map, const float values[RETEX_F
     return fabsf(square - mean * mean);
 }
 
+/* Rows of derivatives by the finishes of a map. */
+typedef struct ByFinish {
+    const float *rows[RETEX_FINISHES_MAX]; /* NULL: 0 */
+} ByFinish;
+
+static ByFinish by_finish(const RetexDerivatives *d, const float *derivatives, size_t n, RetexViewKind kind, int index,
+                          const RowMap *map)
+{
+    ByFinish by = {{NULL}};
+    for (int k = 0; k < map->count; k++)
+        by.rows[k] = row_of(d, derivatives, n, kind, index, k);
+    return by;
+}
+
 /* Adds the error that the variance of a footprint's texture causes, and that of the finish within it. means: of the
  * texture, as `variances`. */
-static int add_footprint(const RetexPolynomialRow *row, int footprint, int y, size_t n, const RowMap *map,
-                         const float *variances, const float *means, const float *restrict derivatives,
-                         float *restrict sum, RetexError *err)
+static int add_footprint(const RetexDerivatives *d, RetexViewReader *reader, int footprint, int y, size_t n,
+                         const RowMap *map, const float *variances, const float *means,
+                         const float *restrict derivatives, float *restrict sum, RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
+    const RetexSet *set = reader->view->set;
     const RetexFootprint *f = &set->footprints[footprint];
-    const size_t textures = (size_t)texture_count(set);
+    const float *colors = row_of(d, derivatives, n, VIEW_FOOTPRINT, footprint, -1);
+    const ByFinish by = by_finish(d, derivatives, n, VIEW_FOOTPRINT, footprint, map);
     const float k = agreement[f->kind], s = chance[f->kind];
     PartRow uv;
-    int code = read_part(&uv, row, f->uv, y, err);
+    int code = read_part(&uv, reader, f->uv, y, err);
     const PartRow variance = {variances, uv.scale, 3}, mean = {means, uv.scale, 3};
     for (size_t i = 0; !code && i < n; i++) {
         const int x = (int)(i / 3), c = (int)(i % 3);
-        float d = derivatives[(size_t)footprint * n + i], by_finish[RETEX_FINISHES_MAX], scatter = 0;
+        float slope = colors ? colors[i] : 0, slopes[RETEX_FINISHES_MAX], scatter = 0;
         for (int q = 0; q < map->count; q++)
-            by_finish[q] = derivatives[((size_t)(1 + q) * textures + (size_t)footprint) * n + i];
-        d += mean_of(map, by_finish, i, &scatter);
-        if (d == 0)
+            slopes[q] = by.rows[q] ? by.rows[q][i] : 0;
+        slope += mean_of(map, slopes, i, &scatter);
+        if (slope == 0)
             continue;
         const float paths = value_at(&uv, x, 2) * (float)set->spp, a = map->count ? value_at(&mean, x, c) : 0;
-        sum[i] += d * d * value_at(&variance, x, c) * (k * k + s / fmaxf(paths, 1)) +
+        sum[i] += slope * slope * value_at(&variance, x, c) * (k * k + s / fmaxf(paths, 1)) +
                   a * a * scatter * (k * k + chance_of_finish / fmaxf(paths, 1));
     }
     return code;
@@ -265,17 +310,17 @@ static int add_footprint(const RetexPolynomialRow *row, int footprint, int y, si
 /* Adds the error of gates, whose footprints agree with their light as broad ones do, and that of later hits, which have
  * the finish of the first: with factors f_k, the mean of f_k f_k stands for that of f_k f_l, and differs from it by the
  * variance of f_k. */
-static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *map, const float *restrict derivatives,
-                      float *restrict sum)
+static void add_gates(const RetexDerivatives *d, int target, size_t n, const RowMap *map,
+                      const float *restrict derivatives, float *restrict sum)
 {
-    const size_t gate = (size_t)(first_gate(set) + target * RETEX_FINISHES_MAX),
-                 later = (size_t)(first_later(set) + target * RETEX_FINISHES_MAX);
+    const RetexSet *set = d->edited->view.set;
+    const ByFinish by = by_finish(d, derivatives, n, VIEW_GATE, target, map);
     const float k = agreement[RETEX_FOOTPRINT_BROAD], part = k * k + chance_of_finish / fmaxf((float)set->spp, 1);
     for (size_t i = 0; i < n; i++) {
         float of_gate[RETEX_FINISHES_MAX], of_later[RETEX_FINISHES_MAX], scatter;
         for (int q = 0; q < map->count; q++) {
-            of_gate[q] = derivatives[(gate + (size_t)q) * n + i];
-            const float light = derivatives[(later + (size_t)q) * n + i], weight = map->weights[q][i];
+            of_gate[q] = by.rows[q] ? by.rows[q][i] : 0;
+            const float light = derivatives[later_row(d, target, q) * n + i], weight = map->weights[q][i];
             of_later[q] = light * weight > 0 ? sqrtf(light / weight) : 0;
         }
         mean_of(map, of_gate, i, &scatter);
@@ -288,35 +333,26 @@ static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *m
 typedef struct RowScratch {
     float *sum;         /* of all terms; then of squared errors */
     float *change;      /* what further hits change in it */
+    float *light;       /* of a term */
     float *derivatives; /* row_count of them */
-    float *weights;     /* of finishes, RETEX_FINISHES_MAX rows */
-    float *rest;        /* for what is done with a row */
 } RowScratch;
 
-static RowScratch divide_scratch(const RetexSet *set, float *scratch)
-{
-    const size_t n = row_numbers(set);
-    RowScratch s = {.sum = scratch, .change = scratch + n, .derivatives = scratch + 2 * n};
-    s.weights = s.derivatives + (size_t)row_count(set) * n;
-    s.rest = s.weights + RETEX_FINISHES_MAX * n;
-    return s;
-}
-
 /* The sum of all terms, and its derivatives by footprints and gates. */
-static int add_terms(const RetexPolynomialRow *row, int y, const RowScratch *s, RetexError *err)
+static int add_terms(const RetexDerivatives *d, RetexViewReader *reader, int y, const RowScratch *s, RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
-    const size_t n = row_numbers(set), textures = (size_t)texture_count(set);
-    const size_t blocks = retex_set_has_finishes(set) ? 1 + RETEX_FINISHES_MAX : 1; /* colours, then by finish */
-    int code = RETEX_OK;
-    for (int m = 0; m < row->count; m++)
-        add_term(set, &row->monomials[m], n, s->sum, s->change, s->derivatives, s->rest);
-    for (size_t block = 0; block < blocks; block++) {
-        float *of_footprints = s->derivatives + block * textures * n;
-        const float *of_mixtures = of_footprints + (size_t)set->nfootprints * n;
-        for (int m = 0; m < set->nmixtures && !code; m++)
-            code = share_derivatives(row, &set->mixtures[m], y, n, of_mixtures + (size_t)m * n, of_footprints, err);
-    }
+    const RetexSet *set = reader->view->set;
+    const size_t n = row_numbers(set);
+    const RetexViewTerm *terms;
+    int count, code = retex_view_terms(reader, d->edited->sum, y, &terms, &count, err);
+    for (int t = 0; t < count && !code; t++)
+        add_term(d, &terms[t], n, s->sum, s->change, s->derivatives, s->light);
+    const int finishes = retex_set_has_finishes(set) ? RETEX_FINISHES_MAX : 0;
+    for (int finish = -1; finish < finishes; finish++) /* colours, then by finish */
+        for (int m = 0; m < set->nmixtures && !code; m++) {
+            const int image = retex_view_find(reader->view, VIEW_MIXTURE, m, finish);
+            if (image >= 0)
+                code = share_derivatives(d, reader, image, y, n, s->derivatives, err);
+        }
     return code;
 }
 
@@ -330,40 +366,37 @@ static void begin_errors(const RetexSet *set, const RowScratch *s)
 }
 
 /* Adds the errors of a target's footprints, and of its finishes. */
-static int add_target(const RetexPolynomialRow *row, int target, int y, const float *const *variances,
-                      const float *const *means, const RowScratch *s, RetexError *err)
+static int add_target(const RetexDerivatives *d, RetexViewReader *reader, int target, int y,
+                      const float *const *variances, const float *const *means, const RowScratch *s, RetexError *err)
 {
-    const RetexPolynomial *p = row->polynomial;
-    const RetexSet *set = p->set;
+    const RetexView *view = reader->view;
+    const RetexSet *set = view->set;
     const size_t n = row_numbers(set);
-    const int finishes = p->mapped[target];
+    const int finishes = view->mapped[target];
     RowMap map = {.count = finishes, .tilt = finishes ? set->targets[target].normal_tilt * M_PI / 180 : 0};
-    float *rows[RETEX_FINISHES_MAX];
     int code = RETEX_OK;
-    for (int k = 0; k < finishes; k++)
-        map.weights[k] = rows[k] = s->weights + (size_t)k * n;
-    if (finishes)
-        code = retex_polynomial_gate_rows(p, row->reader, target, y, s->rest, rows, err);
+    for (int k = 0; k < finishes && !code; k++)
+        code = retex_view_row(reader, retex_view_find(view, VIEW_GATE, target, k), y, &map.weights[k], NULL, err);
     if (finishes && !code)
-        add_gates(set, target, n, &map, s->derivatives, s->sum);
+        add_gates(d, target, n, &map, s->derivatives, s->sum);
     for (int f = 0; f < set->nfootprints && !code; f++)
         if (variances[f] && set->footprints[f].target == target)
-            code = add_footprint(row, f, y, n, &map, variances[f], means[f], s->derivatives, s->sum, err);
+            code = add_footprint(d, reader, f, y, n, &map, variances[f], means[f], s->derivatives, s->sum, err);
     return code;
 }
 
-int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, const float *const *means,
-                       float *scratch, float *out, RetexError *err)
+int retex_estimate_row(const RetexDerivatives *d, RetexViewReader *reader, int y, const float *const *variances,
+                       const float *const *means, float *scratch, float *out, RetexError *err)
 {
-    const RetexSet *set = row->polynomial->set;
-    const RowScratch s = divide_scratch(set, scratch);
-    RETEX_ASSERT(row->polynomial->apart == POLYNOMIAL_APART);
-    memset(scratch, 0, sizeof *scratch * retex_estimate_scratch(set));
-    int code = add_terms(row, y, &s, err);
+    const RetexSet *set = reader->view->set;
+    const size_t n = row_numbers(set);
+    const RowScratch s = {scratch, scratch + n, scratch + 2 * n, scratch + 3 * n};
+    memset(scratch, 0, sizeof *scratch * retex_estimate_scratch(d));
+    int code = add_terms(d, reader, y, &s, err);
     begin_errors(set, &s);
     for (int t = 0; t < set->ntargets && !code; t++)
-        code = add_target(row, t, y, variances, means, &s, err);
-    for (size_t i = 0; i < row_numbers(set); i++)
+        code = add_target(d, reader, t, y, variances, means, &s, err);
+    for (size_t i = 0; i < n; i++)
         out[i] = s.sum[i] <= FLT_MAX ? sqrtf(s.sum[i]) : FLT_MAX; /* derivatives of large colours may overflow to
                                                                      infinity and NaN */
     return code;

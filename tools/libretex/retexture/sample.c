@@ -13,9 +13,9 @@
 #include "exr/band_store_chunks.h"
 #include "set/samples.h"
 #include "set/transfer.h"
-#include "retexture/polynomial_factors.h"
-#include "retexture/polynomial_finishes.h"
+#include "retexture/term_finishes.h"
 #include "retexture/textures.h"
+#include "retexture/view_images.h"
 #include "set/parts.h"
 #include "texture/pyramid.h"
 
@@ -28,39 +28,27 @@ typedef struct SampleWork {
     int borrowed;                              /* the textures are the caller's */
     RetexImageTransfer *edited;                /* footprints of edited targets */
     int nedited;
-    RetexPolynomial maps;                      /* of set and textures alone: what finishes need of it */
+    RetexView view;                            /* of set and textures alone */
+    int *view_images;                          /* by image of the samples, that of the view, if it is edited */
 } SampleWork;
 
-/* Computes rows of a target's gate. */
-static int gate_rows(const SampleWork *work, RetexRowReader *reader, int target, int y0, int y1, float *to,
-                     RetexError *err)
-{
-    const size_t width = (size_t)work->set->width;
-    float *scratch = malloc(sizeof *scratch * 8 * width);
-    int code = scratch ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int y = y0; y < y1 && !code; y++, to += 3 * width)
-        code = retex_polynomial_gate_row(&work->maps, reader, target, y, scratch, to, err);
-    free(scratch);
-    return code;
-}
-
-/* Computes rows y0 <= y < y1 of a footprint's samples. */
-static int sample_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *edited, int y0, int y1,
+/* Computes rows y0 <= y < y1 of a footprint's samples, or of gates. */
+static int sample_rows(void *context, RetexRowReader *unused, const RetexImageTransfer *edited, int y0, int y1,
                        float *to, RetexError *err)
 {
     const SampleWork *work = context;
-    const RetexSampleFootprint *of = &work->samples->footprints[edited->footprint];
-    if (of->footprint < 0)
-        return gate_rows(work, reader, of->target, y0, y1, to, err);
-    RetexFactor factor = retex_factor(RETEX_FACTOR_FOOTPRINT, of->footprint);
-    factor.quantity = of->finish >= 0 ? POLYNOMIAL_FINISHED(of->finish) : RETEX_QUANTITY_COLOR;
-    int code = RETEX_OK;
-    for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
-        RetexRowBuffer buffer = {.values = to}; /* which is 0 before */
-        RetexRowSpan span;
+    const size_t numbers = 3 * (size_t)edited->image->width;
+    RetexViewReader reader;
+    int code = retex_view_reader_open(&reader, &work->view, err);
+    (void)unused;
+    for (int y = y0; y < y1 && !code; y++, to += numbers) {
         const float *row;
-        code = retex_polynomial_footprint_row(&work->maps, reader, factor, y, &buffer, &row, &span, err);
+        code = retex_view_row(&reader, work->view_images[edited->footprint], y, &row, NULL, err);
+        if (!code && row)
+            memcpy(to, row, numbers * sizeof *to); /* which is 0 before */
     }
+    if (reader.view)
+        retex_view_reader_close(&reader);
     return code;
 }
 
@@ -133,38 +121,50 @@ static int is_loaded(const RetexSet *set, const RetexFootprint *f)
     return set->parts[f->uv].image.pixels && set->parts[f->spread].image.pixels && set->parts[f->albedo].image.pixels;
 }
 
-/* Adds the images of footprints with each finish, and the gate, of targets whose textures have a map. */
+/* Adds the images of footprints with each finish, and the gates, of targets whose textures have a map. */
 static int add_finishes(SampleWork *work, int target, RetexError *err)
 {
     const RetexSet *set = work->set;
     int code = RETEX_OK;
     for (int i = 0; i < set->nfootprints; i++)
-        for (int k = 0; k < work->maps.mapped[target] && set->footprints[i].target == target && !code; k++)
+        for (int k = 0; k < work->view.mapped[target] && set->footprints[i].target == target && !code; k++)
             code = retex_samples_add(work->samples, (RetexSampleFootprint){target, set->footprints[i].hit, i, k, 0, 0},
                                      err);
-    return code || !work->maps.mapped[target]
+    return code || !work->view.mapped[target]
                ? code
                : retex_samples_add(work->samples, (RetexSampleFootprint){target, 1, -1, -1, 0, 0}, err);
+}
+
+/* Adds the image of the view that an image of the samples is. */
+static int add_view_image(SampleWork *work, int image)
+{
+    const RetexSampleFootprint *of = &work->samples->footprints[image];
+    if (of->footprint < 0)
+        return retex_view_gates(&work->view, of->target);
+    return retex_view_footprint(&work->view, of->footprint, of->finish,
+                                &work->set->parts[work->set->footprints[of->footprint].uv].image);
 }
 
 static int list_edited(SampleWork *work, int nthreads, RetexError *err)
 {
     const RetexSet *set = work->set;
     RetexSamples *samples = work->samples;
-    work->maps = (RetexPolynomial){.set = set, .textures = work->textures, .columns = {0, set->width}};
-    int code = retex_polynomial_find_maps(&work->maps, err);
+    work->view = (RetexView){.set = set, .textures = work->textures, .columns = {0, set->width}};
+    int code = retex_view_find_maps(&work->view, NULL, err);
     for (int t = 0; t < set->ntargets && !code; t++)
         code = add_finishes(work, t, err);
-    if (!code)
-        code = retex_polynomial_gates_open(&work->maps, nthreads, err);
     work->edited = calloc((size_t)samples->nimages + 1, sizeof *work->edited);
-    if (!code && !work->edited)
+    work->view_images = calloc((size_t)samples->nimages + 1, sizeof *work->view_images);
+    if (!code && (!work->edited || !work->view_images))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int i = 0; i < samples->nimages && !code; i++)
-        if (work->textures[samples->footprints[i].target])
-            work->edited[work->nedited++] =
-                (RetexImageTransfer){.part = -1, .footprint = i, .image = &samples->images[i]};
-    return code;
+    for (int i = 0; i < samples->nimages && !code; i++) {
+        if (!work->textures[samples->footprints[i].target])
+            continue;
+        work->edited[work->nedited++] = (RetexImageTransfer){.part = -1, .footprint = i, .image = &samples->images[i]};
+        if ((work->view_images[i] = add_view_image(work, i)) < 0)
+            code = retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    }
+    return code ? code : retex_view_make(&work->view, nthreads, err);
 }
 
 static int check_loaded(const SampleWork *work, RetexError *err)
@@ -196,7 +196,8 @@ static int close_work(SampleWork *work, RetexSamples **samples, int code)
     if (!work->borrowed)
         retex_textures_close(work->textures);
     free(work->edited);
-    retex_polynomial_gates_close(&work->maps);
+    free(work->view_images);
+    retex_view_close(&work->view);
     return code;
 }
 

@@ -9,7 +9,7 @@
 /* Where an image is, and what it belongs to. */
 typedef struct RetexSampleFootprint {
     int target, hit;  /* of the set's footprint: checked against the set, and part of the image's name in files */
-    int footprint;    /* of the set; -1: the gates of a target, see retexture/polynomial_finishes.h */
+    int footprint;    /* of the set; -1: the gates of a target, see retexture/view_gates.c */
     int finish;       /* the colour times the weight of this finish; -1: the colour; of gates -1, for all finishes */
     int store_image;  /* 0, or 1 + the number of the image in the band store */
     int source_image; /* 0, or 1 + the number of the image in the source */

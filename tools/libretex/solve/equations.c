@@ -1,7 +1,7 @@
 /* See equations.h.
  *
  * The derivative of a product of factors by a target's colour follows the product, factor by factor. That of a factor
- * is the difference between its row and that with a colour a little higher, of a second polynomial: but for further
+ * is the difference between its row and that with a colour a little higher, of a second edit: but for further
  * hits, a factor is linear in the colour, and that is exact. */
 #include "solve/equations.h"
 
@@ -9,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "retexture/polynomial_factors.h"
-#include "retexture/polynomial_strips.h"
+#include <retex/host/assert.h>
+
+#include "retexture/edited.h"
+#include "retexture/strips.h"
 #include "set/set.h"
 #include "solve/derivative_kernel.h"
 
@@ -22,24 +24,24 @@ typedef struct Evaluation {
     const double *values;
     RetexSolveRows rows;
     int ntargets; /* columns of targets, which come first */
-    RetexPolynomial here;
-    RetexPolynomial ahead[RETEX_MAX_TARGETS];                    /* by column, with a higher colour of its target */
+    RetexEdited here;
+    RetexEdited ahead[RETEX_MAX_TARGETS];                    /* by column, with a higher colour of its target */
     RetexTexture *textures[RETEX_MAX_TARGETS];                   /* by target, of those that are sought */
     RetexTexture *higher[RETEX_MAX_TARGETS];                     /* the same */
-    RetexTexture *all[1 + RETEX_MAX_TARGETS][RETEX_MAX_TARGETS]; /* of each polynomial; borrowed */
+    RetexTexture *all[1 + RETEX_MAX_TARGETS][RETEX_MAX_TARGETS]; /* of each edit; borrowed */
     signed char *term_column; /* by term, the column of its lamp; -1: none is sought */
     float common[3];          /* what lamps that are sought have in common with those that are given, */
-    int least[3];             /* and the parameter that has no more; see retex_polynomial_common */
+    int least[3];             /* and the parameter that has no more; see retex_edited_common */
     float values_of[RETEX_PARAMETERS_MAX][3]; /* parameters, with lamps as they are sought here */
     RetexEquations *strips;   /* by strip */
 } Evaluation;
 
 /* Memory of one strip. */
 typedef struct StripRows {
-    RetexPolynomialRow ahead[RETEX_MAX_TARGETS];
-    float **slopes;     /* by column and slot, of the row in slope_rows; allocated when needed */
+    RetexViewReader ahead[RETEX_MAX_TARGETS];
+    float **slopes;     /* by column and image of the view, of the row in slope_rows; allocated when needed */
     int *slope_rows;    /* the same: 1 + the row that is made; 0: none */
-    float *value;       /* of a monomial */
+    float *value;       /* of a term */
     float *derivatives; /* of it, by column of targets */
     float *columns;     /* of the row, by column */
     double *blocks;     /* sums over blocks, three numbers each: see add_row */
@@ -78,14 +80,14 @@ static int open_textures(Evaluation *e, RetexError *err)
     return code;
 }
 
-static int open_polynomial(RetexPolynomial *p, const Evaluation *e, int number, int nthreads, RetexError *err)
+static int open_edited(RetexEdited *edited, const Evaluation *e, int number, int nthreads, RetexError *err)
 {
     const RetexSolveModel *m = e->model;
-    const int code = retex_polynomial_open(p, m->set, m->samples, e->all[number], &m->combine,
-                                           m->ncolumns > e->ntargets ? POLYNOMIAL_LAMPS_APART : POLYNOMIAL_CORRECTED,
-                                           nthreads, err);
+    const int code = retex_edited_open(edited, m->set, m->samples, e->all[number], &m->combine,
+                                       m->ncolumns > e->ntargets ? EDITED_LAMPS : EDITED_CORRECTED, nthreads, err);
     if (!code)
-        p->columns = (RetexRowSpan){m->combine.x0, m->combine.x1};
+        edited->view.columns = (RetexRowSpan){m->combine.x0, m->combine.x1};
+    RETEX_ASSERT(code || !number || edited->view.nimages == e->here.view.nimages); /* they differ in colours alone */
     return code;
 }
 
@@ -115,15 +117,14 @@ static int find_parameter(const RetexSolveModel *m, int parameter)
 /* What lamps have in common where they have the values of the columns. */
 static void find_common(Evaluation *e)
 {
-    RetexPolynomial lit = e->here;
+    memcpy(e->values_of, e->here.parameters, sizeof e->values_of);
     for (int i = 0; i < e->model->set->nparameters; i++) {
         const int column = find_parameter(e->model, i);
         for (int c = 0; c < 3 && column >= 0; c++)
-            lit.parameters[i][c] *=
+            e->values_of[i][c] *=
                 (float)e->values[e->model->columns[column].number[c]] / (float)RETEX_SOLVE_LAMP_UNIT;
     }
-    memcpy(e->values_of, lit.parameters, sizeof e->values_of);
-    retex_polynomial_common(&lit, e->common, e->least);
+    retex_edited_common(&e->here, e->values_of[0], e->common, e->least);
 }
 
 static int open_evaluation(Evaluation *e, int strips, int nthreads, RetexError *err)
@@ -136,9 +137,9 @@ static int open_evaluation(Evaluation *e, int strips, int nthreads, RetexError *
     if (!code)
         code = open_textures(e, err);
     if (!code)
-        code = open_polynomial(&e->here, e, 0, nthreads, err);
+        code = open_edited(&e->here, e, 0, nthreads, err);
     for (int j = 0; j < e->ntargets && !code; j++)
-        code = open_polynomial(&e->ahead[j], e, 1 + j, nthreads, err);
+        code = open_edited(&e->ahead[j], e, 1 + j, nthreads, err);
     for (int t = 0; t < e->model->set->nterms && !code; t++)
         e->term_column[t] = (signed char)find_lamp(e->model, &e->model->set->terms[t]);
     if (!code)
@@ -148,9 +149,9 @@ static int open_evaluation(Evaluation *e, int strips, int nthreads, RetexError *
 
 static void close_evaluation(Evaluation *e)
 {
-    retex_polynomial_close(&e->here);
+    retex_edited_close(&e->here);
     for (int j = 0; j < e->ntargets; j++)
-        retex_polynomial_close(&e->ahead[j]);
+        retex_edited_close(&e->ahead[j]);
     retex_textures_close(e->textures);
     retex_textures_close(e->higher);
     free(e->term_column);
@@ -161,10 +162,11 @@ static void close_evaluation(Evaluation *e)
 
 static void close_strip(StripRows *s, const Evaluation *e)
 {
-    const int slots = retex_polynomial_slot_count(e->model->set);
+    const int count = e->here.view.nimages * e->ntargets;
     for (int j = 0; j < e->ntargets; j++)
-        retex_polynomial_row_close(&s->ahead[j]);
-    for (int i = 0; s->slopes && i < slots * e->ntargets; i++)
+        if (s->ahead[j].view)
+            retex_view_reader_close(&s->ahead[j]);
+    for (int i = 0; s->slopes && i < count; i++)
         free(s->slopes[i]);
     free(s->slopes);
     free(s->slope_rows);
@@ -177,9 +179,9 @@ static void close_strip(StripRows *s, const Evaluation *e)
 static int open_strip(StripRows *s, const Evaluation *e, RetexError *err)
 {
     const size_t numbers = 3 * (size_t)e->model->set->width;
-    const size_t slots = (size_t)(retex_polynomial_slot_count(e->model->set) * e->ntargets) + 1;
+    const size_t slopes = (size_t)(e->here.view.nimages * e->ntargets) + 1;
     int code = RETEX_OK;
-    *s = (StripRows){.slopes = calloc(slots, sizeof *s->slopes), .slope_rows = calloc(slots, sizeof *s->slope_rows)};
+    *s = (StripRows){.slopes = calloc(slopes, sizeof *s->slopes), .slope_rows = calloc(slopes, sizeof *s->slope_rows)};
     s->value = malloc(sizeof *s->value * numbers);
     s->derivatives = malloc(sizeof *s->derivatives * numbers * (size_t)(e->ntargets + 1));
     s->columns = malloc(sizeof *s->columns * numbers * (size_t)(e->model->ncolumns + 1));
@@ -187,37 +189,33 @@ static int open_strip(StripRows *s, const Evaluation *e, RetexError *err)
     if (!s->slopes || !s->slope_rows || !s->value || !s->derivatives || !s->columns || !s->blocks)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to solve");
     for (int j = 0; j < e->ntargets && !code; j++)
-        code = retex_polynomial_row_open(&s->ahead[j], &e->ahead[j], err);
+        code = retex_view_reader_open(&s->ahead[j], &e->ahead[j].view, err);
     return code;
 }
 
-static int depends_on(const RetexSet *set, RetexFactor factor, int target)
+/* Whether what an image shows changes with the colour of a target. */
+static int depends_on(const RetexView *view, int image, int target)
 {
-    int depends = 0;
-    if (factor.kind == RETEX_FACTOR_FOOTPRINT)
-        return set->footprints[factor.index].target == target;
-    if (factor.kind != RETEX_FACTOR_MIXTURE)
-        return 0;
-    const RetexMixture *mixture = &set->mixtures[factor.index];
-    for (int k = 0; k < mixture->nshares; k++)
-        depends |= set->footprints[mixture->shares[k].footprint].target == target;
+    const RetexViewImage *of = &view->images[image];
+    int depends = of->kind == VIEW_FOOTPRINT && view->set->footprints[of->index].target == target;
+    for (int k = 0; k < of->ninputs && of->kind != VIEW_GATE; k++)
+        depends |= depends_on(view, of->inputs[k], target);
     return depends;
 }
 
-/* The derivative of a factor's row by the colour of column j; NULL: it does not depend on that. */
-static int slope_row(StripRows *s, const Evaluation *e, int slot, const float *here, int j, int y, const float **slope,
+/* The derivative of an image's row by the colour of column j; NULL: it does not depend on that. */
+static int slope_row(StripRows *s, const Evaluation *e, int image, const float *here, int j, int y, const float **slope,
                      RetexError *err)
 {
-    const RetexSet *set = e->model->set;
-    const size_t numbers = 3 * (size_t)set->width, at = (size_t)(slot * e->ntargets + j);
+    const size_t numbers = 3 * (size_t)e->model->set->width, at = (size_t)(image * e->ntargets + j);
     const float *ahead;
     *slope = NULL;
-    if (!depends_on(set, retex_polynomial_factor(set, slot), e->model->columns[j].target))
+    if (!depends_on(&e->here.view, image, e->model->columns[j].target))
         return RETEX_OK;
     if (!s->slopes[at] && !(s->slopes[at] = malloc(sizeof **s->slopes * numbers)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to solve");
     if (s->slope_rows[at] != y + 1) {
-        const int code = retex_polynomial_row_factor(&s->ahead[j], slot, y, &ahead, err);
+        const int code = retex_view_row(&s->ahead[j], image, y, &ahead, NULL, err);
         if (code)
             return code;
         if (ahead)
@@ -230,19 +228,19 @@ static int slope_row(StripRows *s, const Evaluation *e, int slot, const float *h
     return RETEX_OK;
 }
 
-/* What a monomial counts: all light as much as lamps have in common, a lamp's what it has beyond. slope: its derivative
+/* What a term counts: all light as much as lamps have in common, a lamp's what it has beyond. slope: its derivative
  * by what they have in common. */
 static void weigh(float weight[3], float slope[3], const Evaluation *e, const RetexTerm *term)
 {
     const RetexSet *set = e->model->set;
-    const int lamp = e->here.apart == POLYNOMIAL_LAMPS_APART ? retex_set_term_lamp(set, term) : -1;
+    const int lamp = e->here.of == EDITED_LAMPS ? retex_set_term_lamp(set, term) : -1;
     for (int c = 0; c < 3; c++) {
-        const int together = e->here.lamps && e->here.apart == POLYNOMIAL_LAMPS_APART;
+        const int together = e->here.lamps && e->here.of == EDITED_LAMPS;
         const float kept = lamp < 0 ? 0 : set->parameters[lamp].kept[c];
         const float own = lamp < 0 ? 0 : e->here.parameters[lamp][c];
         weight[c] = !together  ? 1
                     : lamp < 0 ? e->common[c]
-                    : own > 0  ? retex_polynomial_beyond(e->values_of[lamp][c], kept, e->common[c]) / own
+                    : own > 0  ? retex_edited_beyond(e->values_of[lamp][c], kept, e->common[c]) / own
                                : 0;
         slope[c] = !together ? 0 : lamp < 0 ? 1 : own > 0 ? -kept / own : 0;
     }
@@ -263,36 +261,37 @@ static void add_common(StripRows *s, const Evaluation *e, const float slope[3], 
     }
 }
 
-/* Adds a monomial to the row's value, and its derivatives to those of the row. */
-static int add_monomial(StripRows *s, const Evaluation *e, const RetexMonomial *m, int y, float *sum, RetexError *err)
+/* Adds a term to the row's value, and its derivatives to those of the row. */
+static int add_term(StripRows *s, const Evaluation *e, const RetexViewTerm *term, int y, float *sum, RetexError *err)
 {
-    const RetexRowSpan span = retex_span_intersection(m->span, e->here.columns);
+    const RetexViewProduct *product = term->product;
+    const RetexRowSpan span = retex_span_intersection(term->span, e->here.view.columns);
     const size_t width = (size_t)e->model->set->width, first = 3 * (size_t)span.begin;
     const size_t n = retex_span_is_empty(span) ? 0 : 3 * (size_t)(span.end - span.begin);
-    const int lamp = e->term_column[m->term];
+    const int lamp = e->term_column[product->term];
     float weight[3], slope_of[3], unit[3];
     int moves[RETEX_MAX_TARGETS] = {0}, code = RETEX_OK;
     if (!n)
         return RETEX_OK;
-    memcpy(s->value, m->radiance + first, sizeof *s->value * n);
-    for (int k = 0; k < m->nfactors; k++) {
+    memcpy(s->value, term->rows[0] + first, sizeof *s->value * n);
+    for (int k = 1; k < product->ninputs; k++) {
         for (int j = 0; j < e->ntargets; j++) {
             float *derivative = s->derivatives + 3 * width * (size_t)j;
             const float *slope;
-            if ((code = slope_row(s, e, m->slots[k], m->factors[k], j, y, &slope, err)))
+            if ((code = slope_row(s, e, product->inputs[k], term->rows[k], j, y, &slope, err)))
                 return code;
             if (slope && !moves[j]++)
                 memset(derivative, 0, sizeof *derivative * n);
             if (slope)
-                retex_derivative_multiply(derivative, s->value, m->factors[k] + first, slope + first, n);
+                retex_derivative_multiply(derivative, s->value, term->rows[k] + first, slope + first, n);
             else if (moves[j])
-                retex_row_multiply(derivative, m->factors[k] + first, n);
+                retex_row_multiply(derivative, term->rows[k] + first, n);
         }
-        retex_row_multiply(s->value, m->factors[k] + first, n);
+        retex_row_multiply(s->value, term->rows[k] + first, n);
     }
     for (int c = 0; c < 3; c++)
         unit[c] = 1.f / RETEX_SOLVE_LAMP_UNIT;
-    weigh(weight, slope_of, e, &e->model->set->terms[m->term]);
+    weigh(weight, slope_of, e, &e->model->set->terms[product->term]);
     retex_row_add(sum + first, s->value, weight, n);
     for (int j = 0; j < e->ntargets; j++)
         if (moves[j])
@@ -349,28 +348,27 @@ static void add_blocks(RetexEquations *sums, StripRows *s, const RetexSolveModel
 }
 
 /* The value of row y, and its derivatives. */
-static int make_row(StripRows *s, const Evaluation *e, RetexPolynomialRow *row, int y, float *value, RetexError *err)
+static int make_row(StripRows *s, const Evaluation *e, RetexViewReader *reader, int y, float *value, RetexError *err)
 {
     const size_t numbers = 3 * (size_t)e->model->set->width;
     const float *picture = NULL;
-    int code = RETEX_OK;
+    const RetexViewTerm *terms;
+    int code = RETEX_OK, count;
     memset(value, 0, sizeof *value * numbers);
     memset(s->columns, 0, sizeof *s->columns * numbers * (size_t)e->model->ncolumns);
     if (e->here.picture) {
-        code = retex_row_reader_get(row->reader, 0, y, &picture, err);
+        code = retex_row_reader_get(reader->set, 0, y, &picture, err);
         if (!code && picture)
             memcpy(value, picture, sizeof *value * numbers);
         return code;
     }
-    for (int j = 0; j < e->ntargets; j++)
-        retex_polynomial_row_begin(&s->ahead[j]);
-    code = retex_polynomial_row_make(row, y, err);
-    for (int k = 0; k < row->count && !code; k++)
-        code = add_monomial(s, e, &row->monomials[k], y, value, err);
+    code = retex_view_terms(reader, e->here.sum, y, &terms, &count, err);
+    for (int t = 0; t < count && !code; t++)
+        code = add_term(s, e, &terms[t], y, value, err);
     return code;
 }
 
-static int sum_strip(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int sum_strip(const void *context, RetexViewReader *reader, int y0, int y1, float *rgb, RetexError *err)
 {
     const Evaluation *e = context;
     StripRows s;
@@ -379,7 +377,7 @@ static int sum_strip(const void *context, RetexPolynomialRow *row, int y0, int y
         if (y / BAND_ROWS % e->rows.band == 0 && y % e->rows.step == 0) {
             code = retex_budget_check(e->model->budget, err);
             if (!code)
-                code = make_row(&s, e, row, y, rgb, err);
+                code = make_row(&s, e, reader, y, rgb, err);
             if (!code)
                 add_row(&s, e->model, rgb, y);
         }
@@ -420,8 +418,8 @@ int retex_equations_make(RetexEquations *equations, const RetexSolveModel *model
     const int strips = (model->set->height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
     int code = open_evaluation(&e, strips, nthreads, err);
     if (!code)
-        code = retex_polynomial_strips(&e.here, model->combine.y0, model->combine.y1, sum_strip, &e, no_rows, NULL,
-                                       nthreads, err);
+        code = retex_view_strips(&e.here.view, model->combine.y0, model->combine.y1, sum_strip, &e, no_rows, NULL,
+                                 nthreads, err);
     memset(equations, 0, sizeof *equations);
     for (int i = 0; i < strips && !code; i++)
         add_strip(equations, &e.strips[i], model->ncolumns);

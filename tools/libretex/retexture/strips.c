@@ -1,5 +1,5 @@
-/* See polynomial_strips.h. */
-#include "retexture/polynomial_strips.h"
+/* See strips.h. */
+#include "retexture/strips.h"
 
 #include <stdlib.h>
 
@@ -9,14 +9,14 @@
 #include "set/set.h"
 
 typedef struct StripThread {
-    RetexPolynomialRow row; /* opened when the thread has its first strip */
+    RetexViewReader reader; /* opened when the thread has its first strip */
     float *rgb;
 } StripThread;
 
 typedef struct StripWork {
-    const RetexPolynomial *polynomial;
+    const RetexView *view;
     int y0, y1; /* of the picture */
-    RetexPolynomialStrip *make;
+    RetexStripMake *make;
     const void *context;
     RetexRowSink *sink;
     void *sink_context;
@@ -30,20 +30,20 @@ static int strip_job(void *context, int index, int thread, RetexError *err)
     /* strips begin at multiples of their height, wherever the region does */
     const int first = (work->y0 / RETEX_PICTURE_STRIP + index) * RETEX_PICTURE_STRIP, end = first + RETEX_PICTURE_STRIP;
     const int y0 = first > work->y0 ? first : work->y0, y1 = end < work->y1 ? end : work->y1;
-    const size_t count = 3 * (size_t)work->polynomial->set->width * RETEX_PICTURE_STRIP;
-    int code = own->row.polynomial ? RETEX_OK : retex_polynomial_row_open(&own->row, work->polynomial, err);
+    const size_t count = 3 * (size_t)work->view->set->width * RETEX_PICTURE_STRIP;
+    int code = own->reader.view ? RETEX_OK : retex_view_reader_open(&own->reader, work->view, err);
     if (!code && !own->rgb && !(own->rgb = malloc(sizeof *own->rgb * count)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (!code)
-        code = work->make(work->context, &own->row, y0, y1, own->rgb, err);
+        code = work->make(work->context, &own->reader, y0, y1, own->rgb, err);
     return code ? code : work->sink(work->sink_context, y0, y1, own->rgb, err);
 }
 
-int retex_polynomial_strips(const RetexPolynomial *polynomial, int y0, int y1, RetexPolynomialStrip *make,
-                            const void *context, RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err)
+int retex_view_strips(const RetexView *view, int y0, int y1, RetexStripMake *make, const void *context,
+                      RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads);
-    StripWork work = {polynomial, y0, y1, make, context, sink, sink_context, NULL};
+    StripWork work = {view, y0, y1, make, context, sink, sink_context, NULL};
     int code = RETEX_OK;
     if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
@@ -51,7 +51,8 @@ int retex_polynomial_strips(const RetexPolynomial *polynomial, int y0, int y1, R
         code = retex_jobs_run(threads, (y1 - 1) / RETEX_PICTURE_STRIP - y0 / RETEX_PICTURE_STRIP + 1, strip_job, &work,
                               err);
     for (int i = 0; i < threads; i++) {
-        retex_polynomial_row_close(&work.threads[i].row);
+        if (work.threads[i].reader.view)
+            retex_view_reader_close(&work.threads[i].reader);
         free(work.threads[i].rgb);
     }
     free(work.threads);
