@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/assert.h>
 #include <retex/parallel.h>
 
 #include "set/steps.h"
@@ -500,7 +501,7 @@ static void find_uneven(void *context, int y, int thread)
     }
 }
 
-/* Store a part of a whole pixel as a cluster: a quarter, or all of it. `of`: its middle and axes, as many as parts. */
+/* Store a part of a whole pixel as a cluster: a quarter, or all of it. `of`: its middle and sides. */
 static void store_ellipse(const SplitWork *work, int k, size_t pixel, const RetexParallelogram *of)
 {
     RetexCompactClusters *clusters = work->clusters;
@@ -516,7 +517,22 @@ static void store_ellipse(const SplitWork *work, int k, size_t pixel, const Rete
     uv[2] = 1;
 }
 
-/* Make clusters of a whole pixel. */
+static int count_free(const RetexCompactClusters *clusters, size_t pixel)
+{
+    int count = 0;
+    for (int k = find_free(clusters, 0, pixel); k < clusters->count; k = find_free(clusters, k + 1, pixel))
+        count++;
+    return count;
+}
+
+/* The shape of part 0 to 3 of four, or of the only one: the pixel itself. */
+static RetexTextureFilter shape_of_part(int part, int parts)
+{
+    return (RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + (parts == 1 ? 0 : 1 + part));
+}
+
+/* Makes clusters of a whole pixel, of which at least one is free (find_uneven): its quarters, each with a quarter of
+ * its weight, or where fewer than four are free one of all of it. The whole pixel is none then. */
 static void split_pixel(const SplitWork *work, size_t pixel)
 {
     RetexCompactClusters *clusters = work->clusters;
@@ -525,14 +541,11 @@ static void split_pixel(const SplitWork *work, size_t pixel)
     const float weight = clusters->weight[whole].pixels[pixel];
     const float interreflected =
         clusters->interreflected[whole].pixels ? clusters->interreflected[whole].pixels[pixel] : 0;
-    int room = 0;
-    for (int k = find_free(clusters, 0, pixel); k < clusters->count; k = find_free(clusters, k + 1, pixel))
-        room++;
-    const int parts = room < RETEX_QUADRANTS ? 1 : RETEX_QUADRANTS;
-    for (int part = 0, k = 0; part < parts; part++, k++) {
-        const RetexParallelogram of = retex_parallelogram(
-            (RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + (parts == 1 ? 0 : 1 + part)), uv, axes);
-        k = find_free(clusters, k, pixel);
+    const int parts = count_free(clusters, pixel) < RETEX_QUADRANTS ? 1 : RETEX_QUADRANTS;
+    for (int part = 0; part < parts; part++) {
+        const RetexParallelogram of = retex_parallelogram(shape_of_part(part, parts), uv, axes);
+        const int k = find_free(clusters, 0, pixel); /* those before have coverage now */
+        RETEX_ASSERT(k < clusters->count);
         store_ellipse(work, k, pixel, &of);
         store_weights(clusters, k, pixel, weight / (float)parts, interreflected / (float)parts);
     }

@@ -266,7 +266,7 @@ typedef struct Pool {
 
 typedef struct Pools {
     int count, capacity;
-    int near; /* 1: only clusters near to those of the pixel itself */
+    int drops_far; /* 1: of neighbours only clusters near to those of the pixel itself */
     Pool of[CLUSTERS_MOST];
 } Pools;
 
@@ -341,7 +341,7 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
         if (gain < least || best < 0)
             least = gain, best = k;
     }
-    if (best >= 0 && !open && pools->near && is_far(&pools->of[best].uv, &one->uv, periodic))
+    if (best >= 0 && !open && pools->drops_far && is_far(&pools->of[best].uv, &one->uv, periodic))
         return;
     if (best < 0 || (pools->count < pools->capacity && (open || least > FAR * one->uv.weight)))
         pools->of[pools->count++] = *one;
@@ -374,11 +374,22 @@ static int compare_pools(const Pool *a, const Pool *b)
     return p < q ? -1 : p > q;
 }
 
-/* Pools the clusters of all neighbours into at most `most`, ordered by their place on the texture. */
+/* By place on the texture, so that pixels next to each other list theirs alike. */
+static void sort_pools(Pools *pools)
+{
+    for (int k = 1; k < pools->count; k++)
+        for (int i = k; i > 0 && compare_pools(&pools->of[i], &pools->of[i - 1]) < 0; i--) {
+            Pool swap = pools->of[i];
+            pools->of[i] = pools->of[i - 1], pools->of[i - 1] = swap;
+        }
+}
+
+/* Pools the clusters of a pixel, which is the first of its neighbours, and of all others, into at most `most`. Its own
+ * open the pools; others join that which loses least. Far ones join none but of broad clusters. */
 static void pool_class(Pools *pools, const RetexDenoiseFootprints *f, const RetexFootprintClass *g, int most,
                        const RetexNeighbour *neighbours, int count)
 {
-    *pools = (Pools){.capacity = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
+    *pools = (Pools){.capacity = most, .drops_far = g->kind != RETEX_FOOTPRINT_BROAD};
     for (int n = 0; n < count; n++) {
         size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
         if (!(neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX))
@@ -393,11 +404,7 @@ static void pool_class(Pools *pools, const RetexDenoiseFootprints *f, const Rete
                 add_pool(pools, &one, g->periodic, 0);
         }
     }
-    for (int k = 1; k < pools->count; k++)
-        for (int i = k; i > 0 && compare_pools(&pools->of[i], &pools->of[i - 1]) < 0; i--) {
-            Pool swap = pools->of[i];
-            pools->of[i] = pools->of[i - 1], pools->of[i - 1] = swap;
-        }
+    sort_pools(pools);
 }
 
 static void store_pool(const RetexFootprintImages *place, const Pixel *p, const Pool *pool, double coverage)

@@ -156,32 +156,54 @@ static void put_directory(unsigned char *bytes, size_t *at, const Entry *entries
     *at += 4;
 }
 
-/* In the order of tags. */
-static void list_entries(Directory *d, const RetexPicture *picture, const uint32_t *offsets, const uint32_t *sizes)
+/* Tags of TIFF 6.0 and Exif. */
+enum {
+    TAG_WIDTH = 256,
+    TAG_HEIGHT = 257,
+    TAG_BITS = 258,
+    TAG_COMPRESSION = 259,
+    TAG_PHOTOMETRIC = 262,
+    TAG_STRIP_OFFSETS = 273,
+    TAG_ORIENTATION = 274,
+    TAG_CHANNELS = 277,
+    TAG_ROWS_OF_STRIP = 278,
+    TAG_STRIP_BYTES = 279,
+    TAG_PLANES = 284,
+    TAG_SOFTWARE = 305,
+    TAG_PREDICTOR = 317,
+    TAG_ALPHA = 338,
+    TAG_SAMPLE_FORMAT = 339,
+    TAG_EXIF = 34665,
+    TAG_EXIF_COLOR_SPACE = 40961
+};
+
+/* Fills the directory, in ascending order of tags as TIFF wants it. offsets and bytes: of the strips in the file. The
+ * Exif directory stands among its values. */
+static void list_entries(Directory *d, const RetexPicture *picture, const uint32_t *offsets, const uint32_t *bytes)
 {
     const size_t channels = (size_t)picture->channels, strips = (size_t)picture->nstrips;
     const uint16_t depth = (uint16_t)bits_of(picture), bits[4] = {depth, depth, depth, depth};
-    const uint16_t is_unsigned[4] = {1, 1, 1, 1};
-    Entry exif = {40961, TYPE_SHORT, 1, 0};
+    const uint16_t sample_format[4] = {1, 1, 1, 1}; /* unsigned integers */
+    Entry exif = {TAG_EXIF_COLOR_SPACE, TYPE_SHORT, 1, 0};
 
-    add_long(d, 256, (uint32_t)picture->width);
-    add_long(d, 257, (uint32_t)picture->height);
-    add(d, 258, TYPE_SHORT, channels, bits, 2 * channels);
-    add_short(d, 259, 8);                     /* compression: deflate */
-    add_short(d, 262, channels == 1 ? 1 : 2); /* grey, or RGB */
-    add(d, 273, TYPE_LONG, strips, offsets, 4 * strips);
-    add_short(d, 274, 1); /* upright */
-    add_short(d, 277, picture->channels);
-    add_long(d, 278, RETEX_PICTURE_STRIP);
-    add(d, 279, TYPE_LONG, strips, sizes, 4 * strips);
-    add_short(d, 284, 1); /* channels are interleaved */
-    add(d, 305, TYPE_TEXT, 6, "retex", 6);
-    add_short(d, 317, 2); /* differences along lines */
+    add_long(d, TAG_WIDTH, (uint32_t)picture->width);
+    add_long(d, TAG_HEIGHT, (uint32_t)picture->height);
+    add(d, TAG_BITS, TYPE_SHORT, channels, bits, 2 * channels);
+    add_short(d, TAG_COMPRESSION, 8);                     /* compression: deflate */
+    add_short(d, TAG_PHOTOMETRIC, channels == 1 ? 1 : 2); /* grey, or RGB */
+    add(d, TAG_STRIP_OFFSETS, TYPE_LONG, strips, offsets, 4 * strips);
+    add_short(d, TAG_ORIENTATION, 1); /* upright */
+    add_short(d, TAG_CHANNELS, picture->channels);
+    add_long(d, TAG_ROWS_OF_STRIP, RETEX_PICTURE_STRIP);
+    add(d, TAG_STRIP_BYTES, TYPE_LONG, strips, bytes, 4 * strips);
+    add_short(d, TAG_PLANES, 1); /* channels are interleaved */
+    add(d, TAG_SOFTWARE, TYPE_TEXT, 6, "retex", 6);
+    add_short(d, TAG_PREDICTOR, 2); /* differences along lines */
     if (channels == 4)
-        add_short(d, 338, 2); /* colours are not multiplied by alpha */
-    add(d, 339, TYPE_SHORT, channels, is_unsigned, 2 * channels);
+        add_short(d, TAG_ALPHA, 2); /* colours are not multiplied by alpha */
+    add(d, TAG_SAMPLE_FORMAT, TYPE_SHORT, channels, sample_format, 2 * channels);
     memcpy(&exif.value, &(uint16_t){1}, 2); /* sRGB */
-    add(d, 34665, TYPE_DIRECTORY, 1, &(uint32_t){d->at + (uint32_t)d->bytes}, 4);
+    add(d, TAG_EXIF, TYPE_DIRECTORY, 1, &(uint32_t){d->at + (uint32_t)d->bytes}, 4);
     put_directory(d->values, &d->bytes, &exif, 1);
 }
 

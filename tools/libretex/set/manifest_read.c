@@ -264,7 +264,8 @@ static uint32_t get_identity(Reading *reading, const json_t *json, const char *k
     return (uint32_t)id;
 }
 
-static void read_further(Reading *reading, const json_t *json, RetexSet *set)
+/* {"hits": 2, "ratio": [.4, .4, .3]}: see RETEX_QUANTITY_FURTHER. */
+static void read_further_hits(Reading *reading, const json_t *json, RetexSet *set)
 {
     const json_t *ratio = retex_reading_array(reading, json, "ratio", 3);
 
@@ -308,7 +309,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (json_object_get(root, "exposure"))
         set->exposure = retex_reading_real(reading, json_object_get(root, "exposure"), "exposure");
     if (json_object_get(root, "further"))
-        read_further(reading, json_object_get(root, "further"), set);
+        read_further_hits(reading, json_object_get(root, "further"), set);
     set->unit = json_object_get(root, "unit") ? retex_reading_real(reading, json_object_get(root, "unit"), "unit") : 1;
     if (!reading->code && !(set->unit > 0))
         retex_reading_fail(reading, RETEX_EFORMAT, "has a scene unit of 0 metres or less");

@@ -165,6 +165,12 @@ static int find_folder(const Images *images, const char *name, char *path, size_
     return folder && serve_name_is_valid(name) && (size_t)snprintf(path, size, "%s/%s", folder, name) < size ? 0 : -1;
 }
 
+/* The path of an image: a file, named with or without its ending, or a folder that is a texture. */
+static int find_image(const Images *images, const char *name, char *path, size_t size)
+{
+    return find_file(images, name, path, size) ? find_folder(images, name, path, size) : 0;
+}
+
 /* The identities of the files that are there now: 0, or 1 + the number of one that is not. */
 static int identify(const Images *images, const RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES])
 {
@@ -186,24 +192,18 @@ static int identify(const Images *images, const RetexTextureSpec *spec, FileId i
 
 int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES])
 {
-    char image[sizeof spec->image] = "", finish[sizeof spec->finish];
-    if (!spec->constant && spec->image[0] && find_file(images, spec->image, image, sizeof image) &&
-        find_folder(images, spec->image, image, sizeof image))
-        return 1 + RETEX_TEXTURE_FILE_IMAGE;
-    if (images_has_map(spec) && find_file(images, spec->finish, finish, sizeof finish))
-        return 1 + RETEX_TEXTURE_FILE_FINISH;
     RetexTextureSpec found = *spec;
+    found.image[0] = 0; /* a constant has none, whatever stands there */
+    if (!spec->constant && spec->image[0] && find_image(images, spec->image, found.image, sizeof found.image))
+        return 1 + RETEX_TEXTURE_FILE_IMAGE;
+    if (images_has_map(spec) && find_file(images, spec->finish, found.finish, sizeof found.finish))
+        return 1 + RETEX_TEXTURE_FILE_FINISH;
     for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
-        if (find_file(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]) &&
-            find_folder(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]))
+        if (find_image(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]))
             return 1 + RETEX_TEXTURE_FILE_TILES + k;
     for (int k = 0; k < spec->nlayers; k++)
-        if (find_file(images, spec->layers[k].image, found.layers[k].image, sizeof found.layers[k].image) &&
-            find_folder(images, spec->layers[k].image, found.layers[k].image, sizeof found.layers[k].image))
+        if (find_image(images, spec->layers[k].image, found.layers[k].image, sizeof found.layers[k].image))
             return 1 + RETEX_TEXTURE_FILE_LAYERS + k;
-    strcpy(found.image, image);
-    if (images_has_map(spec))
-        strcpy(found.finish, finish);
     const int missing = identify(images, &found, ids);
     if (!missing)
         *spec = found;

@@ -25,9 +25,9 @@ typedef struct ImagesParams {
 int images_open(Images **images, const ImagesParams *params, RetexError *err);
 void images_close(Images *images); /* when no image is in use */
 
-/* Make names paths: spec->image that of a file, named with or without its ending, or of a folder that is a texture;
- * spec->finish that of a file. ids: of its files, by number; all 0 where it has none. 0, or 1 + the number of the file
- * that is not there. */
+/* Make names paths: those of images, tiles and layers become files, named with or without their ending, or folders that
+ * are textures; spec->finish a file. ids: of its files, by number; all 0 where it has none. 0, or 1 + the number of the
+ * file that is not there; spec is then as it was. */
 int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES]);
 
 /* Whether its option finish names a map. */
