@@ -1,5 +1,6 @@
-"""Scenes for target_faces.t: each as a person finds it, of which one image covers all, and NAME-right.pov, in which what
-is pointed at there is an object of its own, of one colour, with UV that are right by construction."""
+"""Scenes for target_faces.t, target_names.t and target_forms.t: each as a person finds it, of which one image covers
+all, and NAME-right.pov, in which what is pointed at there is an object of its own, of one colour, with UV that are right
+by construction."""
 
 import math
 

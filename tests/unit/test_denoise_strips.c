@@ -94,7 +94,8 @@ static void test_from_a_pack(void **state)
     assert_same_file(test_in_folder("memory.exr"), test_in_folder("strips.exr"));
 }
 
-/* What comes out can be packed, and given textures, without being written before. */
+/* A set that was denoised in strips is combined and packed, without being written before, as one that was denoised in
+ * memory. */
 static void test_what_comes_out_is_a_set(void **state)
 {
     (void)state;
@@ -109,6 +110,7 @@ static void test_what_comes_out_is_a_set(void **state)
         char name[32];
         snprintf(name, sizeof name, "%d.retex", k);
         test_must(retex_denoise(sets[k], NULL, NULL, 2, &err), &err);
+        assert_int_equal(sets[k]->store != NULL, k == 1); /* what was denoised in strips is in a band store */
         test_must(retex_combine(&pictures[k], sets[k], NULL, NULL, NULL, 2, &err), &err);
         test_must(retex_pack_write(sets[k], test_in_folder(name), &params, NULL, 0, &err), &err);
     }
