@@ -486,14 +486,21 @@ static void stored_row(const RetexPart *part, int y, float *floats)
         retex_half_to_float(floats, halves, count);
 }
 
+/* A set, and what is read of its file. */
+static void write_and_read(RetexSet **set, RetexSet **read)
+{
+    RetexError err = {0};
+    *set = test_set(37, 19, 5);
+    test_must(retex_set_write(*set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, read, NULL, 0, &err), &err);
+}
+
 /* Rows as hosts store them are those that are read from the set's own file. */
 static void test_stored_rows(void **state)
 {
     (void)state;
-    RetexError err = {0};
-    RetexSet *set = test_set(37, 19, 5), *read;
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, &read, NULL, 0, &err), &err);
+    RetexSet *set, *read;
+    write_and_read(&set, &read);
     for (int i = 0; i < set->nparts; i++) {
         const RetexImage *image = &read->parts[i].image;
         for (int y = 0; y < image->height; y++) {
@@ -512,9 +519,8 @@ static void test_stored_checksums(void **state)
 {
     (void)state;
     RetexError err = {0};
-    RetexSet *set = test_set(37, 19, 5), *read;
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, &read, NULL, 0, &err), &err);
+    RetexSet *set, *read;
+    write_and_read(&set, &read);
     for (int i = 0; i < set->nparts; i++)
         set->parts[i].crc = 0;
     test_must(retex_set_checksum(set, 2, &err), &err);

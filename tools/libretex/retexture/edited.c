@@ -261,11 +261,6 @@ static int count_factors(RetexEdited *e, const RetexTermFinishes *term, Counted 
     return RETEX_OK;
 }
 
-static int has_weight(const float weight[3])
-{
-    return weight[0] != 1 || weight[1] != 1 || weight[2] != 1;
-}
-
 /* Finds how a term counts; counted->radiance is -1 where it does not. */
 static int count_term(RetexEdited *e, int number, Counted *counted, RetexError *err)
 {
@@ -279,7 +274,7 @@ static int count_term(RetexEdited *e, int number, Counted *counted, RetexError *
     const int is_all_light = e->lamps && retex_set_term_lamp(set, term) < 0;
     for (int c = 0; c < 3; c++)
         counted->weight[c] = of.weight[c] * (is_all_light ? e->common[c] : 1);
-    counted->is_weighted = of.is_weighted || (is_all_light && has_weight(e->common));
+    counted->is_weighted = of.is_weighted || (is_all_light && retex_view_has_weight(e->common));
     if (!has_term(e, term, counted->weight))
         return RETEX_OK;
     const RetexImage *radiance = part_image(set, term->radiance, 3, 3);
@@ -322,7 +317,7 @@ static int add_single(RetexEdited *e, const Counted *counted)
     RetexView *view = &e->view;
     RetexViewProduct product = {.weight = {1, 1, 1}, .term = counted->number};
     int radiance = retex_view_part(view, counted->radiance, 3), code = radiance < 0 ? RETEX_ENOMEM : RETEX_OK;
-    if (!code && has_weight(counted->weight)) {
+    if (!code && retex_view_has_weight(counted->weight)) {
         RetexViewProduct weighted = {.ninputs = 1, .inputs = {radiance}, .term = counted->number};
         memcpy(weighted.weight, counted->weight, sizeof weighted.weight);
         if ((radiance = add_sum(view, 1, 1)) < 0)
@@ -378,7 +373,7 @@ static int add_group(RetexEdited *e, const Group *group, const Counted *counted)
     RetexView *view = &e->view;
     const Counted *first = &counted[group->terms[0]];
     RetexViewProduct product = {.weight = {1, 1, 1}, .term = first->number};
-    const int is_sum = group->is_weighted && (group->nterms > 1 || has_weight(first->weight));
+    const int is_sum = group->is_weighted && (group->nterms > 1 || retex_view_has_weight(first->weight));
     const int radiance = is_sum ? add_group_sum(view, group, counted) : retex_view_part(view, first->radiance, 3);
     int code = append_input(view, &product, radiance, 1);
     for (int k = 0; k < group->nfactors && !code; k++)

@@ -2,7 +2,7 @@
  * What is smaller than the picture and is enlarged is made once, before all else, and kept. Of all other images one row
  * at a time exists, so that none of the picture's size is ever complete in memory.
  *
- * A set with two footprints, seen once each, and a third part that is smaller than the picture:
+ * Light of a floor, times a gain that is smaller than the picture:
  *     0 PART radiance    1 FOOTPRINT floor    2 PART gain, kept    3 ENLARGED 2    4 SUM of 0 * 1 * 3
  * Row y of image 4 asks for row y of 0, 1 and 3.
  *
@@ -76,6 +76,11 @@ int retex_view_find(const RetexView *view, RetexViewKind kind, int index, int fi
 /* Make the images that are enlarged. No image may be added then. */
 int retex_view_make(RetexView *view, int nthreads, RetexError *err);
 void retex_view_close(RetexView *view);
+
+static inline int retex_view_has_weight(const float weight[3])
+{
+    return weight[0] != 1 || weight[1] != 1 || weight[2] != 1;
+}
 
 /* An image of the view, or that of which it is an enlargement. */
 static inline const RetexViewImage *retex_view_inner(const RetexView *view, int image)

@@ -114,8 +114,7 @@ int retex_view_further(RetexView *view, int colors, const RetexImage *shape, Ret
                                                  .inputs = {colors, originals}});
 }
 
-/* Adds the sums of a target's footprints of that scale, if it has any; returns their number at the picture's scale, -1
- * where there are none, or RETEX_ENOMEM. */
+/* Adds the sums of a target's footprints of that scale, if it has any, to the inputs of its gates. */
 static int add_gate_sums(RetexView *view, int target, int scale, RetexViewImage *gates)
 {
     int any = 0;

@@ -252,11 +252,6 @@ int retex_view_make_further(RetexViewReader *reader, const RetexViewImage *image
 
 /* ---- sums ---- */
 
-static int has_weight(const RetexViewProduct *product)
-{
-    return product->weight[0] != 1 || product->weight[1] != 1 || product->weight[2] != 1;
-}
-
 /* The rows of a product's inputs; *black: one of them is 0 everywhere, or all are somewhere. */
 static int find_inputs(RetexViewReader *reader, const RetexViewProduct *product, int y, RetexViewTerm *term, int *black,
                        RetexError *err)
@@ -309,7 +304,7 @@ static void add_product(const RetexViewTerm *term, RetexRowSpan span, float *sum
     float weights[3 * SPAN_PIXELS];
     for (int k = 0; k < product->ninputs; k++)
         rows[1 + k] = term->rows[k] + at;
-    if (!has_weight(product)) {
+    if (!retex_view_has_weight(product->weight)) {
         retex_combine_term_kernel(sum + at, rows[1], rows + 2, product->ninputs - 1, 3 * pixels);
         return;
     }
