@@ -37,7 +37,7 @@ class PackSet
     explicit PackSet(const std::string &path) : path_(path)
     {
         RetexError err{};
-        must(retex_set_open(path.c_str(), &set_, nullptr, 0, &err), err);
+        must(retex_set_open(path.c_str(), &set_, 0, &err), err);
     }
     ~PackSet()
     {
@@ -56,7 +56,7 @@ class PackSet
     {
         std::call_once(reading_, [&] {
             RetexError err{};
-            must(retex_set_read(path_.c_str(), &whole_, nullptr, threads, &err), err);
+            must(retex_set_read(path_.c_str(), &whole_, threads, &err), err);
             must(retex_set_checksum(whole_, threads, &err), err);
             if (retex_set_info(whole_).nparts != retex_set_info(set_).nparts)
                 throw Failure("the pack has changed while it was read");
@@ -85,7 +85,7 @@ class PackSet
         params.parameters = parameters.empty() ? nullptr : parameters.data();
         params.develop = &develop;
         if (!code)
-            code = retex_retexture(set_, nullptr, textures, &params, keep_rows, &picture, threads, &err);
+            code = retex_retexture(set_, textures, &params, keep_rows, &picture, threads, &err);
         retex_textures_close(textures);
         if (code)
             retex_image_free(&picture);

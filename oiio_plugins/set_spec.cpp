@@ -131,7 +131,7 @@ std::string manifest_of(const RetexSet &set)
 {
     RetexError err{};
     char *text = nullptr;
-    must(retex_set_manifest(&set, nullptr, &text, &err), err);
+    must(retex_set_manifest(&set, &text, &err), err);
     std::unique_ptr<char, void (*)(void *)> owned(text, std::free);
     return text;
 }

@@ -230,7 +230,7 @@ int read_control(Arguments *a, RetexError *err)
 {
     RetexSet *set = NULL;
     cli_input(a->cli, a->control, "a set, as from retex-render");
-    const int code = retex_set_read(a->control, &set, NULL, a->cli->threads, err);
+    const int code = retex_set_read(a->control, &set, a->cli->threads, err);
     if (code)
         return code;
     if (!set)

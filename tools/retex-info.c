@@ -63,27 +63,27 @@ static void measure_set(const Cli *cli, const RetexSet *set, Sizes *sizes)
         count_part(set, footprint->uv, counted, &sizes->uv, &sizes->uv_aovs);
         count_part(set, footprint->spread, counted, &sizes->spread, &sizes->spread_aovs);
         count_part(set, footprint->albedo, counted, &sizes->albedo, NULL);
+        count_part(set, footprint->sampled - 1, counted, &sizes->samples, NULL);
+        for (int k = 0; k < RETEX_FINISHES_MAX; k++)
+            count_part(set, footprint->finished[k] - 1, counted, &sizes->samples, NULL);
     }
-    for (int i = 0; i < info.ntargets; i++)
+    for (int i = 0; i < info.ntargets; i++) {
         count_part(set, retex_set_target(set, i)->original, counted, &sizes->originals, NULL);
+        count_part(set, retex_set_target(set, i)->gates - 1, counted, &sizes->samples, NULL);
+    }
     for (int i = 0; i < info.nparts; i++)
         count_part(set, i, counted, &sizes->other, NULL);
     free(counted);
 }
 
-static Sizes measure(const Cli *cli, const char *path, const RetexSet *set, const RetexSamples *samples)
+static Sizes measure(const Cli *cli, const char *path, const RetexSet *set)
 {
     Sizes sizes = {.file = -1};
     struct stat status;
 
     if (strcmp(path, "-") != 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode))
         sizes.file = status.st_size;
-    if (set)
-        measure_set(cli, set, &sizes);
-    const RetexSamplesInfo info = samples ? retex_samples_info(samples) : (RetexSamplesInfo){.width = 0};
-    for (int i = 0; i < info.nfootprints; i++)
-        if (retex_samples_have(samples, i))
-            sizes.samples += (long long)info.width * info.height * 3 * 4;
+    measure_set(cli, set, &sizes);
     return sizes;
 }
 
@@ -234,22 +234,22 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
             sizes->spread_aovs);
 }
 
-static void print_samples(FILE *out, const RetexSamples *samples)
+static void print_samples(FILE *out, const RetexSet *set)
 {
-    const RetexSamplesInfo info = retex_samples_info(samples);
+    const RetexSetInfo info = retex_set_info(set);
+    const RetexTarget *target;
     char name[512], texture[512];
     int count = 0;
 
     for (int i = 0; i < info.nfootprints; i++)
-        count += retex_samples_have(samples, i);
+        count += retex_set_footprint(set, i)->sampled > 0;
     fprintf(out, "samples of     %d footprints out of %d, %d x %d pixels\n", count, info.nfootprints, info.width,
             info.height);
-    if (*retex_samples_set_path(samples))
-        fprintf(out, "of the set     %s\n", plain(texture, retex_samples_set_path(samples)));
-    for (int i = 0; i < info.ntargets; i++)
-        if (*retex_samples_texture(samples, i))
-            fprintf(out, "  %-12s %s\n", plain(name, retex_samples_target(samples, i)),
-                    plain(texture, retex_samples_texture(samples, i)));
+    if (*retex_set_reference(set))
+        fprintf(out, "of the set     %s\n", plain(texture, retex_set_reference(set)));
+    for (int i = 0; (target = retex_set_target(set, i)); i++)
+        if (target->texture[0])
+            fprintf(out, "  %-12s %s\n", plain(name, target->name), plain(texture, target->texture));
 }
 
 /* For a pack: print the sizes of its parts in the file. */
@@ -257,7 +257,7 @@ static void print_packed(FILE *out, const RetexSet *set)
 {
     uint64_t bytes[RETEX_PACK_USES];
 
-    if (!set || retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL))
+    if (retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL))
         return;
     fprintf(out, "bytes in the pack\n");
     for (int i = 0; i < RETEX_PACK_USES; i++)
@@ -269,17 +269,19 @@ static void print_levels(FILE *out, const RetexSet *set)
 {
     RetexPackLevel level = {.size = sizeof level};
 
-    for (int i = 0; set && retex_pack_level(&level, set, i); i++)
+    for (int i = 0; retex_pack_level(&level, set, i); i++)
         fprintf(out, "level 1/%d      %d x %d pixels, %llu bytes\n", level.scale, level.width, level.height,
                 (unsigned long long)level.bytes);
 }
 
-static void print_text(FILE *out, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
+static void print_text(FILE *out, const RetexSet *set, const Sizes *sizes)
 {
-    if (set)
+    const int is_samples = retex_set_info(set).is_samples;
+
+    if (!is_samples)
         print_set(out, set, sizes);
-    if (samples)
-        print_samples(out, samples);
+    if (is_samples || retex_set_has_laid(set))
+        print_samples(out, set);
     print_levels(out, set);
     fprintf(out, "bytes\n");
     print_bytes(out, "radiance", sizes->radiance);
@@ -294,13 +296,13 @@ static void print_text(FILE *out, const RetexSet *set, const RetexSamples *sampl
 }
 
 /* Print the manifest, with the sizes before its first key. Its numbers stay as the set has them, to the last digit. */
-static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
+static int print_json(const Cli *cli, const RetexSet *set, const Sizes *sizes)
 {
     FILE *out = cli->answer;
     RetexError error = {0};
     char *manifest;
 
-    if (retex_set_manifest(set, samples, &manifest, &error)) {
+    if (retex_set_manifest(set, &manifest, &error)) {
         cli_error(cli, &error);
         return CLI_FAIL;
     }
@@ -315,19 +317,19 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
             sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
             sizes->albedo, sizes->originals, sizes->other, sizes->samples);
     uint64_t bytes[RETEX_PACK_USES];
-    if (set && !retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL)) {
+    if (!retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL)) {
         fprintf(out, "\"packed_bytes\":");
         for (int i = 0; i < RETEX_PACK_USES; i++)
             fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_use_name(i), (unsigned long long)bytes[i]);
         fprintf(out, "},");
     }
     RetexPackLevel level = {.size = sizeof level};
-    for (int i = 0; set && retex_pack_level(&level, set, i); i++)
+    for (int i = 0; retex_pack_level(&level, set, i); i++)
         fprintf(out, "%s{\"scale\":%d,\"width\":%d,\"height\":%d,\"bytes\":%llu}", i ? "," : "\"levels\":[",
                 level.scale, level.width, level.height, (unsigned long long)level.bytes);
-    if (set && retex_pack_level(&level, set, 0))
+    if (retex_pack_level(&level, set, 0))
         fprintf(out, "],");
-    fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
+    fprintf(out, "\"denoise_data\":%s,%s\n", retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
     free(manifest);
     return CLI_OK;
 }
@@ -335,23 +337,20 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
 static int print_info(const Cli *cli, const char *path, int json)
 {
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
     RetexError error = {0};
     int status = CLI_OK;
 
-    if (retex_set_open(path, &set, &samples, cli->threads, &error))
+    if (retex_set_open_any(path, &set, cli->threads, &error))
         cli_fail(cli, &error);
     cli_check_pixels(cli, set, path);
-    const Sizes sizes = measure(cli, path, set, samples);
+    const Sizes sizes = measure(cli, path, set);
     if (json) {
-        status = print_json(cli, set, samples, &sizes);
+        status = print_json(cli, set, &sizes);
     } else {
-        print_text(cli->answer, set, samples, &sizes);
+        print_text(cli->answer, set, &sizes);
     }
-    if (set)
-        warn_folded(cli, set);
+    warn_folded(cli, set);
     retex_set_close(&set);
-    retex_samples_close(&samples);
     return status;
 }
 
@@ -377,7 +376,7 @@ static int write_layers(const Cli *cli, const Request *request)
     RetexSet *set = NULL;
     RetexError error = {0};
 
-    if (retex_set_open(request->path, &set, NULL, cli->threads, &error))
+    if (retex_set_open(request->path, &set, cli->threads, &error))
         cli_fail(cli, &error);
     cli_check_pixels(cli, set, request->path);
     int code = retex_set_load(set, cli->threads, &error);

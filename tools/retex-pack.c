@@ -121,7 +121,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     RetexPackPromise promise;
     uint64_t bytes[RETEX_PACK_USES];
     char text[2048], quality[16] = "null";
-    int code = retex_set_open(pack_path, &pack, NULL, job->threads, err);
+    int code = retex_set_open(pack_path, &pack, job->threads, err);
     if (!code)
         code = retex_pack_loss(psnr, RETEX_PACK_LOSSES, pack, set, job->threads, err);
     if (!code) {
@@ -169,7 +169,7 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
 static int read_level(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 {
     RetexPackLevel level = {.size = sizeof level};
-    int found = 0, code = retex_set_open(job->input, set, NULL, job->threads, err);
+    int found = 0, code = retex_set_open(job->input, set, job->threads, err);
     for (int i = 0; !code && !found && retex_pack_level(&level, *set, i); i++)
         found = level.scale == job->level;
     retex_set_close(set);
@@ -185,7 +185,7 @@ static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 {
     const int whole = job->unpack || job->params.lossless || job->no_lamps;
     int code = job->level ? read_level(cli, job, set, err)
-               : whole    ? retex_set_read(job->input, set, NULL, cli->threads, err)
+               : whole    ? retex_set_read(job->input, set, cli->threads, err)
                           : cli_open_set(cli, set, job->input, job->memory, err);
     if (!code && job->no_lamps)
         code = retex_set_drop_lamps(*set, err);

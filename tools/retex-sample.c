@@ -58,66 +58,52 @@ static void check_files(const Cli *cli, const Job *job)
 }
 
 /* Open the set, also one that an earlier retex-sample names. *named: the file that --refer names. */
-static int open_set(const Cli *cli, const Job *job, RetexSet **set, RetexSamples **earlier, const char **named,
-                    RetexError *err)
+static int open_set(const Cli *cli, const Job *job, RetexSet **set, const char **named, RetexError *err)
 {
-    int code = retex_set_open(job->set, set, earlier, cli->threads, err);
+    int code = retex_set_open_any(job->set, set, cli->threads, err);
     *named = job->set;
-    if (!code && !*set && *retex_samples_set_path(*earlier)) {
-        *named = retex_samples_set_path(*earlier);
-        code = cli_open_referred(cli, set, *earlier, job->set, err);
-    } else if (!code && !*set) {
+    if (!code && retex_set_info(*set).is_samples && *retex_set_reference(*set)) {
+        code = cli_open_referred(cli, set, job->set, err);
+        *named = retex_set_reference(*set);
+    } else if (!code && retex_set_info(*set).is_samples) {
         code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set);
-    } else if (!code && job->refer && *earlier) {
+    } else if (!code && job->refer && retex_set_has_laid(*set)) {
         code = retex_fail(err, RETEX_EINVAL, "%s is a stream that carries its set: --refer needs the set's file",
                           strcmp(job->set, "-") == 0 ? "standard input" : job->set);
     }
     return code;
 }
 
-/* *set and *samples are the caller's to close. */
-static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, RetexSet **set, RetexSamples **samples,
-                        RetexError *err)
+/* *set is the caller's to close. */
+static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, RetexSet **set, RetexError *err)
 {
-    RetexSamples *earlier = NULL;
     const RetexTextureSpec *specs = job->textures.specs;
     const int count = job->textures.count;
     double began = retex_clock_seconds();
     const char *named = NULL;
-    int code = open_set(cli, job, set, &earlier, &named, err);
-    if (!code && job->refer && !earlier) { /* before any work */
-        RetexSamples *none = NULL;
-        code = retex_samples_create(&none, *set, err);
-        code = code ? code : retex_samples_refer(none, *set, named, err);
-        retex_samples_close(&none);
-    }
+    int code = open_set(cli, job, set, &named, err);
+    if (!code) /* before any work */
+        code = retex_set_refer(*set, job->refer ? named : NULL, err);
     if (!code)
         cli_check_pixels(cli, *set, job->set);
     double read = retex_clock_seconds();
     if (!code)
         code = kept_textures_load(kept, *set, specs, count, cli->threads, err);
     if (!code)
-        code = retex_sample_textures(samples, *set, kept->textures, specs, count, job->output, cli->threads, err);
-    if (!code && earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
-        code = retex_samples_merge(earlier, *samples, cli->threads, err);
-        retex_samples_close(samples);
-        *samples = earlier, earlier = NULL;
-    }
-    retex_samples_close(&earlier);
+        code = retex_sample_textures(*set, kept->textures, specs, count, job->output, cli->threads, err);
     double sampled = retex_clock_seconds();
     RetexStoreParams store = RETEX_STORE_INIT;
     const int to_pipe = strcmp(job->output, "-") == 0 && !job->refer;
     if (!code)
-        code = retex_samples_refer(*samples, *set, job->refer ? named : NULL, err);
-    if (!code)
-        code = retex_set_write(to_pipe ? *set : NULL, *samples, job->output, &store, cli->threads, err);
+        code = to_pipe ? retex_set_write(*set, job->output, &store, cli->threads, err)
+                       : retex_set_write_samples(*set, job->output, &store, cli->threads, err);
     if (code)
         return code;
     double written = retex_clock_seconds();
 
     const RetexSetInfo info = retex_set_info(*set);
     char text[2048];
-    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(*samples, text, sizeof text), info.width, info.height,
+    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(*set, text, sizeof text), info.width, info.height,
              written - began);
     cli_detail(cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
     return RETEX_OK;
@@ -127,10 +113,8 @@ static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, Rete
 static int make_file(const Cli *cli, const Job *job, KeptTextures *kept)
 {
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
     RetexError err = {0};
-    const int code = make_samples(cli, job, kept, &set, &samples, &err);
-    retex_samples_close(&samples);
+    const int code = make_samples(cli, job, kept, &set, &err);
     retex_set_close(&set);
     if (code && (!job->keep_going || retex_budget_is_stopped(cli->budget)))
         cli_fail(cli, &err);

@@ -315,7 +315,7 @@ static double time_paths(const Cli *cli, const Job *job, int size[2])
     add("-o"), add_made(job, "", "quick.exr"), add("--"), add_made(job, "", "room/room.pov");
     command_run(&command, "A quick render, which tells how long a good one takes.", take_seconds, &seconds);
     snprintf(path, sizeof path, "%s/quick.exr", work);
-    if (retex_set_open(path, &set, NULL, cli->threads, &err))
+    if (retex_set_open(path, &set, cli->threads, &err))
         cli_fail(cli, &err);
     size[0] = retex_set_info(set).width, size[1] = retex_set_info(set).height;
     retex_set_close(&set);

@@ -524,7 +524,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     return code;
 }
 
-void film_move_store(Film *film, RetexSet *set)
+int film_move_store(Film *film, RetexSet *set, RetexError *err)
 {
-    retex_set_take_store(set, bands_take_store(film->bands));
+    return retex_set_take_store(set, bands_take_store(film->bands), err);
 }

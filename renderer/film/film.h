@@ -49,7 +49,7 @@ float *film_image_pixel(FilmPixel *pixel, int image, int x, int y);
 /* Add the parts, terms and footprints of the film to a set, without empty images. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
 /* Give the band store to the set. Call it after all images have been moved to the set. */
-void film_move_store(Film *film, RetexSet *set);
+int film_move_store(Film *film, RetexSet *set, RetexError *err);
 /* The least number of floats for each pixel in all images of the film. */
 long film_floats(const FilmParams *params, int ntargets);
 /* The least number of bytes that they take in memory. stored: 1 with a band store. */

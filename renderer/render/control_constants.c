@@ -90,25 +90,24 @@ int control_constants(RetexImage *colors, const FirstHitWindow *window, const Re
     return code;
 }
 
-int control_constants_combine(RetexImage *dst, const RetexSet *set, const Scene *scene, const RetexImage *colors,
+int control_constants_combine(RetexImage *dst, RetexSet *set, const Scene *scene, const RetexImage *colors,
                               int nthreads, RetexError *err)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    RetexSamples *samples = NULL;
     for (int t = 0; t < scene->ntargets; t++) {
         specs[t] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
         memcpy(specs[t].target, scene->targets[t].name, sizeof specs[t].target);
         specs[t].constant = 1;
     }
-    int code = retex_sample(&samples, set, specs, scene->ntargets, nthreads, err);
+    int code = retex_sample(set, specs, scene->ntargets, nthreads, err);
     const RetexFootprint *footprint;
     for (int k = 0; !code && (footprint = retex_set_footprint(set, k)); k++)
         for (int t = 0; t < scene->ntargets; t++)
             if (!strcmp(retex_set_target(set, footprint->target)->name, scene->targets[t].name))
-                memcpy(retex_samples_mutable_image(samples, k)->pixels, colors[t].pixels,
+                memcpy(retex_set_mutable_image(set, footprint->sampled - 1)->pixels, colors[t].pixels,
                        (size_t)colors[t].width * (size_t)colors[t].height * 3 * sizeof(float));
     if (!code)
-        code = retex_combine(dst, set, samples, NULL, NULL, nthreads, err);
-    retex_samples_close(&samples);
+        code = retex_combine(dst, set, NULL, NULL, nthreads, err);
+    retex_set_lift(set, -1);
     return code;
 }

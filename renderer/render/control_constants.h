@@ -15,7 +15,7 @@ int control_constants_fit(const Scene *scene, const RetexSet *set);
  * independent of all samples. */
 int control_constants(RetexImage *colors, const FirstHitWindow *window, const RetexSet *set, RetexError *err);
 /* dst (unallocated): the set recombined with these colours. */
-int control_constants_combine(RetexImage *dst, const RetexSet *set, const Scene *scene, const RetexImage *colors,
+int control_constants_combine(RetexImage *dst, RetexSet *set, const Scene *scene, const RetexImage *colors,
                               int nthreads, RetexError *err);
 
 #endif

@@ -113,7 +113,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
     stats->limited = film_limited(r->film) + limit_numbers(set);
-    film_move_store(r->film, set);
+    const int moved = film_move_store(r->film, set, code ? NULL : err);
+    code = code ? code : moved;
     if (!code)
         code = retex_set_find_further(set, err);
     stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;

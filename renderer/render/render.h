@@ -23,8 +23,8 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
 /* The picture with the textures of params' first variant, from new samples and the beauty of a set of the same view
  * with its original textures, see control_variate.h. *distance (may be NULL): how unlike the set what was found of the
  * originals is, in standard deviations. */
-int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
-                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err);
+int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, RetexSet *set, ControlMode mode,
+                   double *distance, RenderStats *stats, RetexError *err);
 
 /* Whether the picture has a size that can be, and its crop lies inside it. */
 int render_check_window(const Scene *scene, const RenderParams *params, RetexError *err);

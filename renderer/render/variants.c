@@ -68,7 +68,7 @@ static int check_control(const Render *r, const RetexSet *set, RetexError *err)
 }
 
 /* The constants by pixel, and the set recombined with them. */
-static int find_constants(Render *r, const RetexSet *set, RetexImage *constants, RetexImage *combined, RetexError *err)
+static int find_constants(Render *r, RetexSet *set, RetexImage *constants, RetexImage *combined, RetexError *err)
 {
     FirstHitWindow window = render_window(r);
     int code = control_constants(constants, &window, set, err);
@@ -98,8 +98,8 @@ static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, co
     return code;
 }
 
-int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
-                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err)
+int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, RetexSet *set, ControlMode mode,
+                   double *distance, RenderStats *stats, RetexError *err)
 {
     RenderStats ignored;
     if (!stats)

@@ -75,7 +75,7 @@ static void picture(void *context)
 {
     RetexImage image = {0};
     RetexError err = {0};
-    test_must(retex_combine(&image, context, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&image, context, NULL, NULL, 1, &err), &err);
     bench_sink = image.pixels[0];
     retex_image_free(&image);
 }

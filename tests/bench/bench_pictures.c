@@ -1,7 +1,7 @@
 /* What a set costs beside a plain render, and what it saves. */
 #include <retex/combine.h>
 #include <retex/pack.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 #include <retex/set_file.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,15 +72,13 @@ static void retexture(void *context)
 {
     Room *room = context;
     RetexSet *set;
-    RetexSamples *samples;
     RetexImage picture = {0};
     RetexError err = {0};
-    test_must(retex_set_read(room->files[room->fast], &set, NULL, 1, &err), &err);
-    test_must(retex_sample(&samples, set, &room->texture, 1, 1, &err), &err);
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
+    test_must(retex_set_read(room->files[room->fast], &set, 1, &err), &err);
+    test_must(retex_sample(set, &room->texture, 1, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     bench_sink = picture.pixels[0];
     retex_image_free(&picture);
-    retex_samples_close(&samples);
     retex_set_close(&set);
 }
 
@@ -88,7 +86,7 @@ static void read_file(const char *path)
 {
     RetexSet *set;
     RetexError err = {0};
-    test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
+    test_must(retex_set_read(path, &set, 1, &err), &err);
     bench_sink = set->parts[0].image.pixels[0];
     retex_set_close(&set);
 }
@@ -138,9 +136,9 @@ static void make_files(Room *room, const char *folder)
     snprintf(room->files[0], sizeof room->files[0], "%s/set.exr", folder);
     snprintf(room->files[1], sizeof room->files[1], "%s/plain.exr", folder);
     snprintf(room->files[2], sizeof room->files[2], "%s/set.retex", folder);
-    test_must(retex_set_write(set, NULL, room->files[0], NULL, 0, &err), &err);
+    test_must(retex_set_write(set, room->files[0], NULL, 0, &err), &err);
     store.compress = 0;
-    test_must(retex_set_write(set, NULL, room->files[1], &store, 0, &err), &err);
+    test_must(retex_set_write(set, room->files[1], &store, 0, &err), &err);
     test_must(retex_pack_write(set, room->files[2], NULL, NULL, 0, &err), &err);
     retex_set_close(&set);
 }

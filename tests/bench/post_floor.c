@@ -90,7 +90,7 @@ static void read_job(void *context, int strip, int thread)
     RetexRowReader **reader = &work->readers[thread];
     if (work->code)
         return;
-    int code = *reader ? RETEX_OK : retex_row_reader_open(reader, work->set, NULL, &work->errors[thread]);
+    int code = *reader ? RETEX_OK : retex_row_reader_open(reader, work->set, &work->errors[thread]);
     for (int part = 0; !code && part < work->set->nparts; part++)
         if (is_chosen(work, part))
             code = read_strip(work, *reader, part, strip, &work->errors[thread]);
@@ -123,7 +123,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: post_floor SET [THREADS]\n");
         return 2;
     }
-    int code = retex_set_open(argv[1], &set, NULL, threads, &err);
+    int code = retex_set_open(argv[1], &set, threads, &err);
     if (!code) {
         Floor work = {.set = set,
                       .wanted = calloc((size_t)set->nparts + 1, 1),

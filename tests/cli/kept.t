@@ -30,7 +30,7 @@ $ retex-info kept/levels.retex | grep ^level | cut -c1-27
 % both='--texture:width=40cm:grout=1cm Floor=tan --texture Wall=rgb(.2,.3,.6)'
 % lit='--light Lamp=2*2700K --light Sun=0.5 --finish Floor=polished'
 
-# The pictures that were kept; of lamps with joints as they are laid now, finer than in the stream's samples.
+# The pictures that were kept.
 % cd kept
 $ same lamps-laid lamps.exr $both $lit
 > lamps-laid
@@ -48,8 +48,8 @@ $ same levels levels.retex --texture Floor=tan --size 160x
 > levels
 
 # As streams, with samples, from other layouts, denoised and unpacked.
-$ same lamps.exr - $lit <lamps.stream
-> lamps.exr
+$ same lamps-laid - $lit <lamps.stream
+> lamps-laid
 $ same normals.exr normals.exr normals-samples.exr
 > normals.exr
 $ same paper.exr paper.exr paper-samples.exr

@@ -46,10 +46,11 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_estimate_error: ok
 > retex_kept_samples_create: ok
 > retex_sample_textures: ok
-> retex_samples_refer: ok
-> retex_samples_open_set: ok
+> retex_set_refer: ok
+> retex_set_write_samples: ok
+> retex_set_open_any: ok
+> retex_set_open_referred: ok
 > retex_sample: ok
-> retex_samples_get_info: 48 x 32
 > retex_combine: ok
 > retex_image_write: ok
 > retex_texture_create: ok

@@ -4,7 +4,7 @@
  * recombined. */
 #include <retex/combine.h>
 #include <retex/pack.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -171,8 +171,6 @@ static void put_all_right(Entry *entries, int count)
     Entry *manifest = find_entry(entries, count, RETEX_PACK_MANIFEST_NAME),
           *index = find_entry(entries, count, RETEX_PACK_INDEX_NAME);
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
-    RetexSamplePart *names = NULL;
     if (!manifest || !index)
         return;
     char *json = strndup((char *)manifest->data, manifest->size);
@@ -180,7 +178,7 @@ static void put_all_right(Entry *entries, int count)
         retex_manifest_seal(json);
         memcpy(manifest->data, json, strlen(json));
     }
-    if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL, NULL) == 0 && set) {
+    if (json && retex_manifest_read(json, "fuzz", &set, NULL, NULL) == 0) {
         RetexPackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
         if (parts && retex_pack_parse(parts, set, json, NULL) == 0)
             put_parts_right(index->data, index->size, set, parts, entries, count);
@@ -188,9 +186,7 @@ static void put_all_right(Entry *entries, int count)
             retex_pack_part_free(&parts[i]);
         free(parts);
     }
-    free(names);
     free(json);
-    retex_samples_close(&samples);
     retex_set_close(&set);
 }
 
@@ -273,7 +269,7 @@ static int run(const unsigned char *bytes, size_t size)
     int code = pack_read(zip ? zip : bytes, size, &set, 1, NULL);
     fuzz_must(!code == (set != NULL), "a set and a failure exclude each other");
     if (set)
-        retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
+        retex_combine(&picture, set, NULL, NULL, 1, NULL);
     retex_image_free(&picture);
     retex_set_close(&set);
     free(zip);

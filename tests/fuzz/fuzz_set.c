@@ -1,11 +1,11 @@
-/* Sets, samples and streams of both as OpenEXR files, read from a file and through a pipe: both must say the same. What
- * is accepted is checked, recombined, retextured and denoised. Of half of them checksums are put right before, else
- * little would be accepted. */
+/* Sets, with textures laid on them or not, and samples as OpenEXR files, read from a file and through a pipe: both must
+ * say the same. What is accepted is checked, recombined, retextured and denoised. Of half of them checksums are put
+ * right before, else little would be accepted. */
 #include <fcntl.h>
 #include <math.h>
 #include <retex/combine.h>
 #include <retex/denoise.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 #include <retex/set_file.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,14 +22,16 @@
 static int file; /* in memory, known by name */
 static char path[64];
 
-static void give(RetexSet *set, const RetexSamples *samples, int compress)
+static void give(RetexSet *set, int as_samples, int compress)
 {
     RetexStoreParams params = RETEX_STORE_INIT;
     RetexError err = {0};
     char name[64];
     snprintf(name, sizeof name, "fuzz_set-%d.tmp.exr", (int)getpid());
     params.compress = compress;
-    test_must(retex_set_write(set, samples, name, &params, 1, &err), &err);
+    test_must(as_samples ? retex_set_write_samples(set, name, &params, 1, &err)
+                         : retex_set_write(set, name, &params, 1, &err),
+              &err);
     FILE *in = fopen(name, "rb");
     unsigned char *bytes = malloc(FUZZ_LARGEST);
     if (in && bytes)
@@ -44,25 +46,24 @@ static void begin(void)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
-    RetexSamples *samples;
     RetexSet *set = test_set(12, 8, 1), *tall = test_set(3, 40, 2);
     test_make_footprints(tall);
     test_must(test_texture_spec(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
-    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     for (int compress = 0; compress < 2; compress++) {
-        give(set, NULL, compress);
-        give(tall, NULL, compress);
-        give(NULL, samples, compress);
-        give(set, samples, compress);
+        give(set, 0, compress);
+        give(tall, 0, compress);
+        test_must(retex_sample(set, &spec, 1, 1, &err), &err);
+        give(set, 1, compress);
+        give(set, 0, compress);
+        retex_set_lift(set, -1);
     }
-    retex_samples_close(&samples);
-    test_must(retex_sample(&samples, tall, &spec, 1, 1, &err), &err);
-    give(tall, samples, 0);
-    retex_samples_close(&samples);
+    test_must(retex_sample(tall, &spec, 1, 1, &err), &err);
+    give(tall, 0, 0);
+    retex_set_lift(tall, -1);
     test_add_denoise_data(set);
     test_add_denoise_data(tall);
-    give(set, NULL, 0);
-    give(tall, NULL, 0);
+    give(set, 0, 0);
+    give(tall, 0, 0);
     retex_set_close(&set);
     retex_set_close(&tall);
     file = memfd_create("fuzz_set", 0);
@@ -75,7 +76,7 @@ static void begin(void)
 static void put_part_right(char *json, RetexExr *exr, const char *name, const char *letters)
 {
     RetexExrRequest request = {.part = retex_exr_find_part(exr, name), .with_crc = 1};
-    char key[RETEX_SAMPLE_NAME_MAX + 16], digits[9];
+    char key[RETEX_NAME_MAX + 16], digits[9];
     snprintf(key, sizeof key, "\"name\":\"%s\"", name);
     char *place = strstr(json, key);
     place = place ? strstr(place, "\"crc32\":\"") : NULL;
@@ -91,24 +92,17 @@ static void put_part_right(char *json, RetexExr *exr, const char *name, const ch
 static void put_parts_right(char *json, const unsigned char *bytes, size_t size)
 {
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
-    RetexSamplePart *names = NULL;
     RetexInput *input = NULL;
     RetexExr *exr = NULL;
-    int code = retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL, NULL);
+    int code = retex_manifest_read(json, "fuzz", &set, NULL, NULL);
     if (!code)
         code = retex_input_borrow(&input, bytes, size, "fuzz", NULL);
     if (!code)
         code = retex_exr_open(&exr, input, NULL);
     for (int i = 0; !code && set && i < set->nparts; i++)
         put_part_right(json, exr, set->parts[i].name, set->parts[i].letters);
-    for (int i = 0; !code && samples && i < samples->nimages; i++)
-        if (names[i].name[0])
-            put_part_right(json, exr, names[i].name, "RGB");
     retex_exr_close(&exr);
     retex_input_close(&input);
-    free(names);
-    retex_samples_close(&samples);
     retex_set_close(&set);
 }
 
@@ -151,34 +145,32 @@ static int drop_rows(void *context, int y0, int y1, const float *rows, RetexErro
 }
 
 /* What is accepted gives a picture of numbers. */
-static void combine(const RetexSet *set, const RetexSamples *samples)
+static void combine(const RetexSet *set)
 {
     RetexImage picture = {0};
-    if (retex_combine(&picture, set, samples, NULL, NULL, 1, NULL) == 0)
+    if (retex_combine(&picture, set, NULL, NULL, 1, NULL) == 0)
         for (size_t i = 0; i < retex_image_index(&picture, 0, picture.height); i++)
             fuzz_must(isfinite(picture.pixels[i]), "a picture is finite");
     retex_image_free(&picture);
 }
 
-static void use_set(const RetexSet *set, const RetexSamples *samples)
+static void use_set(RetexSet *set)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexTexture *textures[RETEX_MAX_TARGETS];
-    RetexSamples *own = NULL;
-    combine(set, NULL);
-    if (samples && retex_samples_check(samples, set, NULL) == 0)
-        combine(set, samples);
+    combine(set);
     if (set->ntargets) {
         spec.constant = 1;
         spec.color[0] = 0.5f, spec.color[1] = 1e9f;
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
-        if (retex_sample(&own, set, &spec, 1, 1, NULL) == 0)
-            combine(set, own);
         if (retex_textures_load(textures, set, &spec, 1, 1, NULL) == 0)
-            retex_estimate_error(set, NULL, textures, NULL, drop_rows, NULL, 1, NULL);
+            retex_estimate_error(set, textures, NULL, drop_rows, NULL, 1, NULL);
         retex_textures_close(textures);
+        if (retex_sample(set, &spec, 1, 1, NULL) == 0)
+            combine(set);
     }
-    retex_samples_close(&own);
+    retex_set_lift(set, -1);
+    combine(set);
 }
 
 /* Denoising changes a set: the last thing done to it. */
@@ -188,32 +180,29 @@ static void denoise(RetexSet *set)
     params.radius = 2;
     if (set->width > 64 || set->height > 64 || retex_denoise(set, &params, NULL, 1, NULL))
         return;
-    combine(set, NULL);
+    combine(set);
 }
 
-/* The file stays open: samples join those that it has, and all goes on, as down a pipe. */
+/* The file stays open: a texture joins those that are laid on it, and all goes on, as down a pipe. */
 static void use_open(void)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    RetexImage picture = {0};
-    RetexSet *set;
-    RetexSamples *samples = NULL, *more = NULL;
-    if (retex_set_open(path, &set, &samples, 1, NULL))
+    RetexSet *set, *samples;
+    if (retex_set_open_any(path, &set, 1, NULL))
         return;
-    if (set && samples)
-        retex_combine(&picture, set, samples, NULL, NULL, 1, NULL);
+    if (retex_set_open_any(path, &samples, 1, NULL) == 0)
+        (void)retex_set_lay(set, samples, NULL);
+    combine(set);
     spec.constant = 1;
-    if (set && set->ntargets)
+    if (set->ntargets)
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
-    if (set && test_sample_to_store(&more, set, &spec, 1, "-", 1, NULL) == 0)
-        if (!samples || retex_samples_merge(samples, more, 0, NULL) == 0)
-            retex_set_write(set, samples ? samples : more, "/dev/null", NULL, 0, NULL);
-    if (samples)
-        retex_samples_load(samples, 1, NULL);
-    retex_samples_close(&samples);
-    retex_samples_close(&more);
+    if (set->ntargets && test_sample_to_store(set, &spec, 1, "-", 1, NULL) == 0) {
+        retex_set_write(set, "/dev/null", NULL, 0, NULL);
+        retex_set_write_samples(set, "/dev/null", NULL, 0, NULL);
+    }
+    retex_set_load(set, 1, NULL);
+    retex_set_close(&samples);
     retex_set_close(&set);
-    retex_image_free(&picture);
 }
 
 static void use_layers(void)
@@ -233,7 +222,6 @@ static int run(const unsigned char *input, size_t size)
 {
     unsigned char *bytes = malloc(size + 1);
     RetexSet *set = NULL, *piped = NULL;
-    RetexSamples *samples = NULL, *piped_samples = NULL;
     if (!bytes || size < 4 || memcmp(input, "v/1\1", 4) != 0) {
         free(bytes);
         return 0; /* the bridge and OpenImageIO are asked about others */
@@ -242,21 +230,18 @@ static int run(const unsigned char *input, size_t size)
     if (input[size / 2] & 1)
         put_right(bytes, size);
     fuzz_must(ftruncate(file, 0) == 0 && pwrite(file, bytes, size, 0) == (ssize_t)size, "a file can be written");
-    int code = retex_set_read(path, &set, &samples, 1, NULL);
+    int code = retex_set_read(path, &set, 1, NULL);
     pipe_in(bytes, size);
-    fuzz_must(retex_set_read("-", &piped, &piped_samples, 1, NULL) == code, "a pipe reads as a file does");
-    fuzz_must(!set == !piped && !samples == !piped_samples, "a pipe gives what a file gives");
+    fuzz_must(retex_set_read("-", &piped, 1, NULL) == code, "a pipe reads as a file does");
     fuzz_must(code || retex_set_check(path, 1, NULL) <= 0, "a check answers");
     if (set)
-        use_set(set, samples);
+        use_set(set);
     if (set)
         denoise(set);
     use_open();
     use_layers();
     retex_set_close(&set);
     retex_set_close(&piped);
-    retex_samples_close(&samples);
-    retex_samples_close(&piped_samples);
     free(bytes);
     return !code;
 }

@@ -123,13 +123,12 @@ static void call_specs(const RetexTextureSpec *spec)
     CALL(retex_texture_spec_join, own, layer);
 }
 
-static void call_textures(const RetexSet *set, const char *argument, const char *written)
+static void call_textures(RetexSet *set, const char *argument, const char *written)
 {
     RetexTextureSpec *specs = at_the_end(&(RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT, sizeof *specs, 2);
     RetexTextureSpec *spec = &specs[1];
     RetexCombineParams *params = OLDER(RetexCombineParams, RETEX_COMBINE_INIT);
     RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL}, *texture = NULL;
-    RetexSamples *samples = NULL;
     RetexImage picture = {0};
     RetexEdit *edit = NULL;
     char *text = NULL, image[32];
@@ -162,31 +161,29 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     CALL(retex_textures_load, textures, set, specs, 2, 1);
     CALL(retex_textures_place, &texture, textures[0], set, spec);
     retex_texture_close(&texture);
-    CALL(retex_retexture, set, NULL, textures, params, drop_rows, NULL, 1);
+    CALL(retex_retexture, set, textures, params, drop_rows, NULL, 1);
     double exposure;
-    CALL(retex_auto_exposure, &exposure, set, NULL, textures, params, 1);
-    CALL(retex_estimate_error, set, NULL, textures, params, drop_rows, NULL, 1);
+    CALL(retex_auto_exposure, &exposure, set, textures, params, 1);
+    CALL(retex_estimate_error, set, textures, params, drop_rows, NULL, 1);
     RetexKeptSamples *kept = NULL;
     RetexKeptSamplesInfo *rows = OLDER(RetexKeptSamplesInfo, {.size = sizeof(RetexKeptSamplesInfo)});
     CALL(retex_kept_samples_create, &kept, set, 0, NULL);
     retex_kept_samples_get_info(kept, rows);
     retex_kept_samples_close(&kept);
-    CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
+    CALL(retex_sample_textures, set, textures, specs, 2, written, 1);
+    CALL(retex_set_refer, set, "room.exr");
+    CALL(retex_set_write_samples, set, written, NULL, 1);
     RetexSet *same = NULL;
-    CALL(retex_samples_refer, samples, set, "room.exr");
-    CALL(retex_samples_open_set, &same, samples, access_of_all(), 1);
+    CALL(retex_set_open_any, written, &same, 1);
+    CALL(retex_set_open_referred, &same, access_of_all(), 1);
     retex_set_close(&same);
-    retex_samples_close(&samples);
-    CALL(retex_sample, &samples, set, specs, 2, 1);
-    RetexSamplesInfo *info = OLDER(RetexSamplesInfo, {.size = sizeof(RetexSamplesInfo)});
-    retex_samples_get_info(samples, info);
-    printf("retex_samples_get_info: %d x %d\n", info->width, info->height);
-    CALL(retex_combine, &picture, set, samples, params, NULL, 1);
+    CALL(retex_sample, set, specs, 2, 1);
+    CALL(retex_combine, &picture, set, params, NULL, 1);
+    retex_set_lift(set, -1);
     CALL(retex_image_write, &picture, written, NULL, 1);
     CALL(retex_texture_create, &texture, &picture, spec, 1);
     retex_texture_close(&texture);
     retex_textures_close(textures);
-    retex_samples_close(&samples);
     retex_image_free(&picture);
 }
 
@@ -195,8 +192,8 @@ static void call_solve(const RetexSet *set)
     RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL};
     RetexSolution *solution = NULL;
     RetexImage picture = {0};
-    CALL(retex_combine, &picture, set, NULL, NULL, NULL, 1);
-    CALL(retex_solve, &solution, set, NULL, textures, &picture, OLDER(RetexSolveParams, RETEX_SOLVE_INIT), 1);
+    CALL(retex_combine, &picture, set, NULL, NULL, 1);
+    CALL(retex_solve, &solution, set, textures, &picture, OLDER(RetexSolveParams, RETEX_SOLVE_INIT), 1);
     retex_solution_close(&solution);
     retex_image_free(&picture);
 }
@@ -212,7 +209,7 @@ static void call_sets(RetexSet *set, const char *folder)
     CALL(retex_set_describe, set, info);
     printf("retex_set_describe: %s\n", retex_set_info(set).generator);
     snprintf(path, sizeof path, "%s/set.exr", folder);
-    CALL(retex_set_write, set, NULL, path, OLDER(RetexStoreParams, RETEX_STORE_INIT), 1);
+    CALL(retex_set_write, set, path, OLDER(RetexStoreParams, RETEX_STORE_INIT), 1);
     snprintf(path, sizeof path, "%s/set.retex", folder);
     printf("retex_pack_level: %d\n", retex_pack_level(OLDER(RetexPackLevel, {.size = sizeof(RetexPackLevel)}), set, 0));
     CALL(retex_pack_write, set, path, OLDER(RetexPackParams, RETEX_PACK_INIT), NULL, 1);
@@ -237,7 +234,7 @@ int main(int argc, char **argv)
 {
     RetexSet *set = NULL;
     char path[1024];
-    if (argc != 4 || retex_set_read(argv[1], &set, NULL, 1, &err))
+    if (argc != 4 || retex_set_read(argv[1], &set, 1, &err))
         return 2;
     setvbuf(stdout, NULL, _IOLBF, 0); /* the last line names the last call that is right */
     call_limits();

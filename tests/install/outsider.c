@@ -7,7 +7,6 @@ int main(int argc, char **argv)
 {
     RetexError err = {0};
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
     RetexImage picture = {0};
     RetexEdit *edit = NULL;
     if (argc != 4) {
@@ -18,17 +17,16 @@ int main(int argc, char **argv)
     if (code == RETEX_OK)
         code = retex_edit_parse(edit, argv[2], &err);
     if (code == RETEX_OK)
-        code = retex_set_read(argv[1], &set, NULL, 0, &err);
+        code = retex_set_read(argv[1], &set, 0, &err);
     if (code == RETEX_OK)
-        code = retex_sample(&samples, set, retex_edit_texture(edit, 0), retex_edit_count(edit), 0, &err);
+        code = retex_sample(set, retex_edit_texture(edit, 0), retex_edit_count(edit), 0, &err);
     if (code == RETEX_OK)
-        code = retex_combine(&picture, set, samples, NULL, NULL, 0, &err);
+        code = retex_combine(&picture, set, NULL, NULL, 0, &err);
     if (code == RETEX_OK)
         code = retex_image_write(&picture, argv[3], NULL, 0, &err);
     if (code != RETEX_OK)
         fprintf(stderr, "outsider: %s: %s\n", err.file, err.message);
     retex_image_free(&picture);
-    retex_samples_close(&samples);
     retex_set_close(&set);
     retex_edit_close(&edit);
     return code == RETEX_OK ? 0 : 2;

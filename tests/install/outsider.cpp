@@ -11,7 +11,6 @@ template <class T, void (*close)(T **)> struct Closer {
 };
 using Set = std::unique_ptr<RetexSet, Closer<RetexSet, retex_set_close>>;
 using Edit = std::unique_ptr<RetexEdit, Closer<RetexEdit, retex_edit_close>>;
-using Samples = std::unique_ptr<RetexSamples, Closer<RetexSamples, retex_samples_close>>;
 
 static void must(int code, const RetexError &err)
 {
@@ -28,16 +27,14 @@ int main(int argc, char **argv) try {
     Edit edit(made);
     must(retex_edit_parse(made, argv[2], &err), err);
     RetexSet *read = nullptr;
-    must(retex_set_read(argv[1], &read, nullptr, 0, &err), err);
+    must(retex_set_read(argv[1], &read, 0, &err), err);
     Set set(read);
-    RetexSamples *filtered = nullptr;
-    must(retex_sample(&filtered, set.get(), retex_edit_texture(made, 0), retex_edit_count(made), 0, &err), err);
-    Samples samples(filtered);
+    must(retex_sample(set.get(), retex_edit_texture(made, 0), retex_edit_count(made), 0, &err), err);
     std::unique_ptr<RetexImage, void (*)(RetexImage *)> picture(new RetexImage(), [](RetexImage *image) {
         retex_image_free(image);
         delete image;
     });
-    must(retex_combine(picture.get(), set.get(), samples.get(), nullptr, nullptr, 0, &err), err);
+    must(retex_combine(picture.get(), set.get(), nullptr, nullptr, 0, &err), err);
     must(retex_image_write(picture.get(), argv[3], nullptr, 0, &err), err);
     return 0;
 } catch (const std::exception &error) {

@@ -91,9 +91,7 @@ RetexSet *compacted(const RetexSet *set, int broad, int later, int gain)
 RetexImage picture(const RetexSet *set, const float *constant)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    RetexSamples *samples = NULL;
     RetexImage image = {0};
-    RetexError err = {0};
     for (int t = 0; t < set->ntargets && constant; t++) {
         specs[t] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
         strcpy(specs[t].target, set->targets[t].name);
@@ -101,10 +99,7 @@ RetexImage picture(const RetexSet *set, const float *constant)
         for (int c = 0; c < 3; c++)
             specs[t].color[c] = constant[c];
     }
-    if (constant)
-        test_must(retex_sample(&samples, set, specs, set->ntargets, 1, &err), &err);
-    test_must(retex_combine(&image, set, samples, NULL, NULL, 1, &err), &err);
-    retex_samples_close(&samples);
+    test_combine(&image, set, specs, constant ? set->ntargets : 0, NULL);
     return image;
 }
 

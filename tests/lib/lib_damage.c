@@ -72,17 +72,16 @@ void damage_write(RetexSet *set, DamageFile kind, const char *path)
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexPackParams packing = RETEX_PACK_INIT;
     const RetexTextureSpec spec = make_spec(set, 1);
-    RetexSamples *samples = NULL;
     RetexError err = {0};
     store.compress = kind == FILE_SET;
     packing.lossless = kind == FILE_LOSSLESS;
     if (kind == FILE_STREAM)
-        test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+        test_must(retex_sample(set, &spec, 1, 1, &err), &err);
     if (kind == FILE_PACK || kind == FILE_LOSSLESS)
         test_must(retex_pack_write(set, path, &packing, NULL, 0, &err), &err);
     else
-        test_must(retex_set_write(set, samples, path, &store, 0, &err), &err);
-    retex_samples_close(&samples);
+        test_must(retex_set_write(set, path, &store, 0, &err), &err);
+    retex_set_lift(set, -1);
 }
 
 /* Replace a word by another of the same length. */
@@ -162,7 +161,7 @@ static int keep_rows(void *context, int y0, int y1, const float *rows, RetexErro
 }
 
 /* The first target's texture, row by row. */
-static int go_rows(const RetexSet *set, const RetexSamples *samples, int estimate, uint32_t *sum, RetexError *err)
+static int go_rows(const RetexSet *set, int estimate, uint32_t *sum, RetexError *err)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL};
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
@@ -175,8 +174,8 @@ static int go_rows(const RetexSet *set, const RetexSamples *samples, int estimat
     if (!code)
         code = retex_image_alloc(&picture, set->width, set->height, 3, err);
     if (!code)
-        code = estimate ? retex_estimate_error(set, samples, textures, NULL, keep_rows, &picture, 1, err)
-                        : retex_retexture(set, samples, textures, NULL, keep_rows, &picture, 1, err);
+        code = estimate ? retex_estimate_error(set, textures, NULL, keep_rows, &picture, 1, err)
+                        : retex_retexture(set, textures, NULL, keep_rows, &picture, 1, err);
     if (!code)
         *sum = sum_of(&picture);
     retex_textures_close(textures);
@@ -184,40 +183,35 @@ static int go_rows(const RetexSet *set, const RetexSamples *samples, int estimat
     return code;
 }
 
-static int go_combine(const RetexSet *set, const RetexSamples *samples, uint32_t *sum, RetexError *err)
+static int go_combine(const RetexSet *set, uint32_t *sum, RetexError *err)
 {
     RetexImage picture = {0};
-    const int code = retex_combine(&picture, set, samples, NULL, NULL, 1, err);
+    const int code = retex_combine(&picture, set, NULL, NULL, 1, err);
     if (!code)
         *sum = sum_of(&picture);
     retex_image_free(&picture);
     return code;
 }
 
-/* Samples of the first target, with those that the file has. */
-static int go_sample(RetexSet *set, RetexSamples *there, int stream, uint32_t *sum, RetexError *err)
+/* A texture on the first target, beside what is laid on the file's set. */
+static int go_sample(RetexSet *set, int stream, uint32_t *sum, RetexError *err)
 {
-    RetexSamples *samples = NULL;
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     int code = set->ntargets ? 0 : retex_fail(err, RETEX_EINVAL, "no target");
     if (!code) {
         spec = make_spec(set, 0);
-        code = test_sample_to_store(&samples, set, &spec, 1, output_path, 1, err);
+        code = test_sample_to_store(set, &spec, 1, output_path, 1, err);
     }
-    if (!code && there)
-        code = retex_samples_merge(there, samples, 1, err);
-    const RetexSamples *all = there ? there : samples;
     if (!code)
-        code = stream ? retex_set_write(set, all, output_path, NULL, 0, err) : go_combine(set, all, sum, err);
+        code = stream ? retex_set_write(set, output_path, NULL, 0, err) : go_combine(set, sum, err);
     if (!code && stream)
         *sum = sum_of_output();
-    retex_samples_close(&samples);
     return code;
 }
 
-static int go_write(RetexSet *set, const RetexSamples *samples, uint32_t *sum, RetexError *err)
+static int go_write(RetexSet *set, uint32_t *sum, RetexError *err)
 {
-    const int code = retex_set_write(set, samples, output_path, NULL, 0, err);
+    const int code = retex_set_write(set, output_path, NULL, 0, err);
     if (!code)
         *sum = sum_of_output();
     return code;
@@ -227,6 +221,7 @@ static int go_pack(RetexSet *set, uint32_t *sum, RetexError *err)
 {
     RetexPackParams params = RETEX_PACK_INIT;
     params.lossless = 1;
+    retex_set_lift(set, -1);
     int code = retex_set_load(set, 1, err);
     if (!code)
         code = retex_pack_write(set, output_path, &params, NULL, 0, err);
@@ -240,32 +235,30 @@ static int go_denoise(RetexSet *set, uint32_t *sum, RetexError *err)
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     params.radius = 1;
     params.near = output_path;
+    retex_set_lift(set, -1);
     const int code = retex_denoise(set, &params, NULL, 1, err);
-    return code ? code : go_combine(set, NULL, sum, err);
+    return code ? code : go_combine(set, sum, err);
 }
 
 int damage_go(DamageRoad road, const char *path, uint32_t *sum, RetexError *err)
 {
     const int whole = road == ROAD_READ || road == ROAD_DENOISE;
     RetexSet *set = NULL;
-    RetexSamples *samples = NULL;
-    int code = whole ? retex_set_read(path, &set, &samples, 1, err) : retex_set_open(path, &set, &samples, 1, err);
-    if (!code && !set)
-        code = retex_fail(err, RETEX_EFORMAT, "it holds no set");
+    int code = whole ? retex_set_read(path, &set, 1, err) : retex_set_open(path, &set, 1, err);
     if (code)
         goto done;
     switch (road) {
     case ROAD_ROWS:
     case ROAD_READ:
     case ROAD_ESTIMATE:
-        code = go_rows(set, samples, road == ROAD_ESTIMATE, sum, err);
+        code = go_rows(set, road == ROAD_ESTIMATE, sum, err);
         break;
     case ROAD_SAMPLE:
     case ROAD_STREAM:
-        code = go_sample(set, samples, road == ROAD_STREAM, sum, err);
+        code = go_sample(set, road == ROAD_STREAM, sum, err);
         break;
     case ROAD_WRITE:
-        code = go_write(set, samples, sum, err);
+        code = go_write(set, sum, err);
         break;
     case ROAD_PACK:
         code = go_pack(set, sum, err);
@@ -275,7 +268,6 @@ int damage_go(DamageRoad road, const char *path, uint32_t *sum, RetexError *err)
     }
 done:
     unlink(output_path);
-    retex_samples_close(&samples);
     retex_set_close(&set);
     return code;
 }

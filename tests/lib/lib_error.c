@@ -5,34 +5,32 @@
 #include "retexture/sample_row.h"
 #include "texture/pyramid.h"
 
-RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
-                      int nthreads)
+RetexImage test_error(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexImage error = {0};
     RetexError err = {0};
     test_must(retex_textures_load(textures, set, specs, nspecs, nthreads, &err), &err);
     test_must(retex_image_alloc(&error, set->width, set->height, 3, &err), &err);
-    test_must(retex_estimate_error(set, samples, textures, NULL, retex_image_keep_rows, &error, nthreads, &err), &err);
+    test_must(retex_estimate_error(set, textures, NULL, retex_image_keep_rows, &error, nthreads, &err), &err);
     retex_textures_close(textures);
     return error;
 }
 
-RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs, int nspecs)
+void test_lay_variances(RetexSet *set, const RetexTextureSpec *specs, int nspecs)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS] = {0};
-    RetexSamples *variances;
     RetexRowReader *reader;
     RetexError err = {0};
-    test_must(retex_sample(&variances, set, specs, nspecs, 1, &err), &err);
+    test_must(retex_sample(set, specs, nspecs, 1, &err), &err);
     test_must(retex_textures_load(textures, set, specs, nspecs, 1, &err), &err);
-    test_must(retex_row_reader_open(&reader, set, NULL, &err), &err);
+    test_must(retex_row_reader_open(&reader, set, &err), &err);
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
         const int t = f->target;
-        RetexImage *image = &variances->images[i];
         if (!textures[t])
             continue;
+        const RetexImage *image = test_laid(set, i);
         if (!squares[t])
             test_must(retex_texture_square(&squares[t], textures[t], 0, &err), &err);
         for (int y = 0; y < image->height; y++) {
@@ -45,5 +43,4 @@ RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs,
     retex_row_reader_close(&reader);
     retex_textures_close(textures);
     retex_textures_close(squares);
-    return variances;
 }

@@ -4,11 +4,10 @@
 
 #include <retex/retex.h>
 
-/* The expected error as a picture; samples may be NULL. To be freed. */
-RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
-                      int nthreads);
+/* The expected error as a picture, to be freed. */
+RetexImage test_error(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads);
 
-/* The standard deviation of textures within the footprints of a set in memory, stored as samples are. To be closed. */
-RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs, int nspecs);
+/* Lay the variance of textures within the footprints on a set in memory, in place of the textures. */
+void test_lay_variances(RetexSet *set, const RetexTextureSpec *specs, int nspecs);
 
 #endif

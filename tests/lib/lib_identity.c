@@ -5,7 +5,7 @@
 #include <math.h>
 #include "lib_identity.h"
 #include <retex/combine.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 
 enum { WIDTH = 16, HEIGHT = 12 };
 
@@ -53,7 +53,6 @@ void assert_identity(const char *text, const char *target, int spp, int max_dept
     RenderParams p = RENDER_PARAMS_INIT;
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RenderVariant replaced = {{NULL}, NULL};
-    RetexSamples *samples = NULL;
     RetexImage again = {0};
     assert_int_equal(scene_resolve_targets(scene, &target, 1, NULL), 0);
     scene->width = WIDTH, scene->height = HEIGHT;
@@ -63,7 +62,7 @@ void assert_identity(const char *text, const char *target, int spp, int max_dept
     RetexSet *plain = render(scene, &p);
     assert_true(set->folded == 0);
     assert_pictures(&set->parts[0].image, &plain->parts[0].image, 1e-5, "plain against set");
-    assert_int_equal(retex_combine(&again, set, NULL, NULL, NULL, 0, NULL), 0);
+    assert_int_equal(retex_combine(&again, set, NULL, NULL, 0, NULL), 0);
     assert_pictures(&again, &plain->parts[0].image, 1e-3, "unedited"); /* footprints are rounded on purpose */
     retex_image_free(&again);
     retex_set_close(&plain);
@@ -75,11 +74,10 @@ void assert_identity(const char *text, const char *target, int spp, int max_dept
     replaced.textures[0] = texture;
     p.variants = &replaced, p.nvariants = 1;
     plain = render(scene, &p);
-    assert_int_equal(retex_sample(&samples, set, &spec, 1, 0, NULL), 0);
-    assert_int_equal(retex_combine(&again, set, samples, NULL, NULL, 0, NULL), 0);
+    assert_int_equal(retex_sample(set, &spec, 1, 0, NULL), 0);
+    assert_int_equal(retex_combine(&again, set, NULL, NULL, 0, NULL), 0);
     assert_pictures(&again, &plain->parts[0].image, 5e-3, "recoloured");
     retex_image_free(&again);
-    retex_samples_close(&samples);
     retex_texture_close(&texture);
     retex_set_close(&plain);
     retex_set_close(&set);

@@ -8,22 +8,19 @@
 
 #include "base/half.h"
 
-RetexSamples *make_samples(const RetexSet *set, int every)
+void lay_random(RetexSet *set, int every)
 {
-    RetexSamples *samples;
-    test_must(retex_samples_create(&samples, set, NULL), NULL);
-    samples->set_id = 0;
-    for (int i = 0; i < set->ntargets; i++) {
-        snprintf(samples->textures[i], sizeof samples->textures[i],
-                 "b\xfc"
-                 "hne %d.jpg",
-                 i);
+    RetexError err = {0};
+    for (int f = 0; f < set->nfootprints; f++) {
+        RetexTarget *target = &set->targets[set->footprints[f].target];
+        int part;
+        if (!every || f % every)
+            continue;
+        snprintf(target->texture, sizeof target->texture, "b\xfchne %d.jpg", set->footprints[f].target);
+        test_must(retex_set_add_laid(set, set->footprints[f].target, f, -1, &part, &err), &err);
+        test_random_image(&set->parts[part].image, set->parts[part].image.width, set->parts[part].image.height, 3,
+                          (uint32_t)f + 50, 0, 1);
     }
-    for (int i = 0; i < set->nfootprints; i++) {
-        if (every && i % every == 0)
-            test_random_image(&samples->images[i], set->width, set->height, 3, (uint32_t)i + 50, 0, 1);
-    }
-    return samples;
 }
 
 static void expect_equal_pixels(const RetexImage *want, const RetexImage *got, RetexPixelType type)
@@ -126,20 +123,21 @@ void expect_equal_sets(const RetexSet *a, const RetexSet *b)
     expect_equal_terms(a, b);
 }
 
-void expect_equal_samples(const RetexSamples *a, const RetexSamples *b)
+void expect_equal_laid(const RetexSet *a, const RetexSet *b)
 {
     assert_true(a->width == b->width && a->height == b->height);
-    assert_int_equal(a->nimages, b->nimages);
+    assert_int_equal(a->id, b->id);
     assert_int_equal(a->ntargets, b->ntargets);
     for (int i = 0; i < a->ntargets; i++) {
-        assert_string_equal(a->target_names[i], b->target_names[i]);
-        assert_string_equal(b->textures[i], i ? "b?hne 1.jpg" : "b?hne 0.jpg"); /* JSON is UTF-8 */
+        assert_string_equal(a->targets[i].name, b->targets[i].name);
+        if (a->targets[i].texture[0]) /* JSON is UTF-8 */
+            assert_string_equal(b->targets[i].texture, i ? "b?hne 1.jpg" : "b?hne 0.jpg");
+        assert_int_equal(!a->targets[i].texture[0], !b->targets[i].texture[0]);
     }
-    for (int i = 0; i < a->nimages; i++) {
-        assert_int_equal(a->footprints[i].target, b->footprints[i].target);
-        assert_int_equal(a->footprints[i].hit, b->footprints[i].hit);
-        assert_true(!a->images[i].pixels == !b->images[i].pixels);
-        if (a->images[i].pixels)
-            expect_equal_pixels(&a->images[i], &b->images[i], RETEX_FLOAT);
+    assert_int_equal(a->nfootprints, b->nfootprints);
+    for (int f = 0; f < a->nfootprints; f++) {
+        assert_int_equal(a->footprints[f].target, b->footprints[f].target);
+        assert_int_equal(a->footprints[f].hit, b->footprints[f].hit);
+        expect_equal_part(a, a->footprints[f].sampled - 1, b, b->footprints[f].sampled - 1);
     }
 }

@@ -5,7 +5,7 @@
 #include <cmocka.h>
 #include <string.h>
 #include "camera/camera.h"
-#include "set/samples.h"
+#include "set/laid.h"
 #include "lib_stage.h"
 
 Camera stage_orthographic(Vec3 location, Vec3 direction, Vec3 right, Vec3 up)

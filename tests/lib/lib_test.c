@@ -13,16 +13,32 @@ double test_random(uint32_t *state)
     return (double)((word >> 22) ^ word) / 4294967296.0;
 }
 
-int test_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                         const char *near, int nthreads, RetexError *err)
+int test_sample_to_store(RetexSet *set, const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads,
+                         RetexError *err)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS];
-    *samples = NULL;
     int code = retex_textures_load(textures, set, specs, nspecs, nthreads, err);
     if (!code)
-        code = retex_sample_textures(samples, set, textures, specs, nspecs, near, nthreads, err);
+        code = retex_sample_textures(set, textures, specs, nspecs, near, nthreads, err);
     retex_textures_close(textures);
     return code;
+}
+
+void test_combine(RetexImage *picture, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                  const RetexCombineParams *params)
+{
+    RetexSet *laid = (RetexSet *)set;
+    RetexError err = {0};
+    if (nspecs)
+        test_must(retex_sample(laid, specs, nspecs, 2, &err), &err);
+    test_must(retex_combine(picture, laid, params, NULL, 2, &err), &err);
+    retex_set_lift(laid, -1);
+}
+
+const RetexImage *test_laid(const RetexSet *set, int footprint)
+{
+    const int part = set->footprints[footprint].sampled - 1;
+    return part < 0 ? NULL : &set->parts[part].image;
 }
 
 void test_must(int code, const RetexError *err)

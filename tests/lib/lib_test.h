@@ -20,7 +20,7 @@
 #include <retex/host/uv_stats.h>
 #include <retex/retex.h>
 
-#include "set/samples.h" /* tests look into sets */
+#include "set/laid.h" /* tests look into sets */
 
 /* The next number of a repeatable sequence, uniform in [0,1). *state is its seed. */
 double test_random(uint32_t *state);
@@ -61,9 +61,14 @@ void test_make_footprints(RetexSet *set);
 /* Add denoising data, as <retex/host/denoise_data.h> lists it: noise, and guides of two surfaces side by side. */
 void test_add_denoise_data(RetexSet *set);
 
-/* Loads the textures of specs and samples them into a band store near a path: see retex_sample_textures. */
-int test_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                         const char *near, int nthreads, RetexError *err);
+/* Loads the textures of specs and lays them on a set, in a band store near a path: see retex_sample_textures. */
+int test_sample_to_store(RetexSet *set, const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads,
+                         RetexError *err);
+/* retex_combine of a set with textures laid on it, which is afterwards as it was without any. */
+void test_combine(RetexImage *picture, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                  const RetexCombineParams *params);
+/* What the texture that is laid on a set shows at a footprint; NULL: there is none. */
+const RetexImage *test_laid(const RetexSet *set, int footprint);
 
 /* Ends the process with a message. For functions that run outside of a test. */
 void test_must(int code, const RetexError *err);

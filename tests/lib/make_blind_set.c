@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "set/samples.h"
+#include "set/laid.h"
 
 int main(int argc, char **argv)
 {
@@ -13,7 +13,7 @@ int main(int argc, char **argv)
     RetexSet *set = NULL;
     if (argc != 3)
         return 2;
-    if (retex_set_read(argv[1], &set, NULL, 0, &err))
+    if (retex_set_read(argv[1], &set, 0, &err))
         goto failed;
     RetexImage *beauty = &set->parts[0].image;
     memset(beauty->pixels, 0,
@@ -21,7 +21,7 @@ int main(int argc, char **argv)
     for (int t = set->nterms - 1; t >= 0; t--)
         if (set->terms[t].role == RETEX_ROLE_PICTURE)
             memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(--set->nterms - t));
-    if (retex_set_write(set, NULL, argv[2], NULL, 0, &err))
+    if (retex_set_write(set, argv[2], NULL, 0, &err))
         goto failed;
     retex_set_close(&set);
     return 0;

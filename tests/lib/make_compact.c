@@ -37,9 +37,9 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: make_compact IN OUT [psnr=DB] [broad=N] [later=N] [gain=N]\n");
         return 2;
     }
-    test_must(retex_set_read(argv[1], &set, NULL, 0, &err), &err);
+    test_must(retex_set_read(argv[1], &set, 0, &err), &err);
     test_must(retex_set_compact(&compact, set, &params, 0, &err), &err);
-    test_must(retex_set_write(compact, NULL, argv[2], NULL, 0, &err), &err);
+    test_must(retex_set_write(compact, argv[2], NULL, 0, &err), &err);
     retex_set_close(&set);
     retex_set_close(&compact);
     return 0;

@@ -13,11 +13,11 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: make_lamp_terms IN OUT [off | several]\n");
         return 2;
     }
-    test_must(retex_set_read(argv[1], &set, NULL, 0, &err), &err);
+    test_must(retex_set_read(argv[1], &set, 0, &err), &err);
     test_add_lamp_terms(set, strcmp(how, "off") == 0, strcmp(how, "several") == 0);
     if (!strcmp(how, "off")) /* the picture without it */
-        test_must(retex_combine(&set->parts[0].image, set, NULL, NULL, NULL, 0, &err), &err);
-    test_must(retex_set_write(set, NULL, argv[2], NULL, 0, &err), &err);
+        test_must(retex_combine(&set->parts[0].image, set, NULL, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, argv[2], NULL, 0, &err), &err);
     retex_set_close(&set);
     return 0;
 }

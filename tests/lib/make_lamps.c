@@ -14,14 +14,14 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: make_lamps IN OUT [R,G,B]\n");
         return 2;
     }
-    test_must(retex_set_read(argv[1], &set, NULL, 0, &err), &err);
+    test_must(retex_set_read(argv[1], &set, 0, &err), &err);
     for (int t = 0; t < set->nterms; t++)
         if (set->terms[t].role == RETEX_ROLE_PICTURE)
             set->terms[t] = set->terms[--set->nterms];
     test_divide_light(set);
     if (argc > 3)
         memcpy(set->parameters[retex_set_find_parameter(set, "Lamp")].value, color, sizeof color);
-    test_must(retex_set_write(set, NULL, argv[2], NULL, 0, &err), &err);
+    test_must(retex_set_write(set, argv[2], NULL, 0, &err), &err);
     retex_set_close(&set);
     return 0;
 }

@@ -57,7 +57,7 @@ int main(int argc, char **argv)
             return 2;
         }
     }
-    test_must(retex_set_write(set, NULL, argv[1], NULL, 0, &err), &err);
+    test_must(retex_set_write(set, argv[1], NULL, 0, &err), &err);
     retex_set_close(&set);
     return 0;
 }

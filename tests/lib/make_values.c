@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "set/samples.h"
+#include "set/laid.h"
 
 static void print_mean(const RetexImage *image)
 {
@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     RetexImage picture = {0};
     if (argc < 3)
         return 2;
-    if (retex_set_read(argv[1], &set, NULL, 0, NULL) && retex_image_read(&picture, argv[1], NULL, 1, &err)) {
+    if (retex_set_read(argv[1], &set, 0, NULL) && retex_image_read(&picture, argv[1], NULL, 1, &err)) {
         fprintf(stderr, "make_values: %s\n", err.message);
         return 2;
     }

@@ -51,9 +51,11 @@ def test_pictures():
         text = f"Floor={OAK};Floor.scale=2,1;Floor.rotate=30;wall=red"
         assert np.array_equal(room.combine(text), expected)
         assert np.array_equal(next(room.batch([text])), expected)
-        assert np.array_equal(room.combine(samples=room.sample(text)), expected)
         assert not np.array_equal(room.combine(f"Floor={OAK};wall=red"), expected)
         assert np.array_equal(room.combine({"Wall": "#f00", "Floor": floor}), expected)
+        room.lay(text)
+        assert np.array_equal(room.combine(), expected)
+        room.lift()
         error = lib.fails(retex.Error, room.combine, "Flor=red")
         assert error.code == retex.Code.ENOTFOUND and "is Floor meant?" in error.message
         error = lib.fails(retex.Error, room.combine, "Floor=red;Floor.scal=2")

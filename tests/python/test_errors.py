@@ -33,7 +33,8 @@ def test_opening():
     with open("damaged.exr", "r+b") as file:
         file.truncate(20000)
     expect(Code.EFORMAT, "damaged.exr", retex.open, "damaged.exr")
-    expect(Code.EFORMAT, "room.exr", retex.Samples.open, "room.exr")
+    lib.run("retex-sample", "room.exr", "--texture", "Floor=red", "-o", "red-samples.exr")
+    expect(Code.EFORMAT, "red-samples.exr", retex.open, "red-samples.exr")
     lib.fails(ValueError, retex.open, "a\0b")
     lib.fails(TypeError, retex.open, 7)
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
@@ -95,7 +96,7 @@ def test_numbers():
     with retex.open("room.exr") as room:
         for threads in (-1, 257):
             lib.fails(ValueError, room.combine, threads=threads)
-            lib.fails(ValueError, room.sample, {}, threads=threads)
+            lib.fails(ValueError, room.lay, {}, threads=threads)
         lib.fails(Error, room.combine, cross=1)
         lib.fails(Error, room.denoise, radius=0)
         lib.fails(Error, room.denoise, denoiser="oid")
@@ -124,8 +125,10 @@ def test_samples_of_another_set():
     """Samples of another set"""
     lib.run("make_set", "other.exr", "32", "48")
     with retex.open("room.exr") as room, retex.open("other.exr") as other:
-        samples = other.sample({"Floor": (1, 0, 0)})
-        lib.fails(Error, room.combine, samples=samples)
+        other.lay({"Floor": (1, 0, 0)})
+        other.write_samples("others-samples.exr")
+        lib.fails(Error, room.lay_samples, "others-samples.exr")
+        expect(Code.ENOTFOUND, "", room.lift, "Flor")
 
 
 def test_closed():
@@ -134,18 +137,17 @@ def test_closed():
     picture = room.combine()
     room.close()
     room.close()
-    for call in (room.combine, room.error, room.preload, room.denoise, lambda: room.sample({}), lambda: room.write("x"),
+    for call in (room.combine, room.error, room.preload, room.denoise, lambda: room.lay({}), lambda: room.write("x"),
                  lambda: room.pack("x"), lambda: list(room.batch([{}])), lambda: room.can_denoise):
         lib.fails(ValueError, call)
     assert room.width == 64 and room.targets and np.isfinite(picture).all()
 
 
 def test_copies():
-    """Sets are neither copied nor pickled, samples not pickled"""
+    """Sets are neither copied nor pickled"""
     with retex.open("room.exr") as room:
         for refused in (copy.copy, copy.deepcopy, pickle.dumps):
             assert "open its file again" in str(lib.fails(TypeError, refused, room))
-        lib.fails(TypeError, pickle.dumps, room.sample({}))
         texture = pickle.loads(pickle.dumps(retex.Texture("oak.jpg", scale=2)))
         assert repr(texture) == repr(retex.Texture("oak.jpg", scale=2))
         assert pickle.loads(pickle.dumps(room.targets)) == room.targets
@@ -157,7 +159,7 @@ def test_warnings():
         warnings.simplefilter("always")
         room.combine({"Floor": (2, 2, 2)})
         retex.Texture((2, 2, 2))
-        room.sample({"Floor": (2, 2, 2)})
+        room.lay({"Floor": (2, 2, 2)})
         assert [warning.category for warning in told] == [retex.RetexWarning] * 2, told
         assert {warning.filename for warning in told} == {__file__}, told  # the caller's line, not the package's
         warnings.simplefilter("error")

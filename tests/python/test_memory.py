@@ -47,8 +47,9 @@ def test_sets_and_samples():
     """60 sets, with all that is made of them, leave nothing behind"""
     def work():
         room = retex.open("small.exr")
-        samples = room.sample({"Floor": OAK})
-        room.combine(samples=samples)
+        room.lay({"Floor": OAK})
+        room.combine()
+        room.lift()
         room.error({"Floor": (1, 0, 0)})
         retex.encode(room.combine(), "jpg")
         list(room.batch([{"Floor": OAK}, {}]))

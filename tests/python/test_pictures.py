@@ -173,18 +173,25 @@ def test_crop():
 
 
 def test_samples():
-    """Samples, and their file"""
+    """Textures that are laid on a set, and their file"""
     lib.run("retex-sample", "room.exr", "--texture", "Floor=" + OAK, "-o", "expected-samples.exr")
     with retex.open("room.exr") as room:
         expected = room.combine({"Floor": OAK})
-        samples = room.sample({"Floor": OAK})
-        assert np.array_equal(room.combine(samples=samples), expected)
-        samples.write("samples.exr")
+        plain, red, both = room.combine(), room.combine({"Floor": (1, 0, 0)}), room.combine({"Wall": (1, 0, 0),
+                                                                                           "Floor": OAK})
+        room.lay({"Floor": OAK})
+        assert np.array_equal(room.combine(), expected)
+        assert room.manifest["targets"][0]["texture"] == OAK
+        room.write_samples("samples.exr")
+        assert np.array_equal(room.combine({"Wall": (1, 0, 0)}), both)
+        assert np.array_equal(room.combine({"Floor": (1, 0, 0)}), red)
         for name in ("samples.exr", "expected-samples.exr"):
-            assert np.array_equal(room.combine(samples=retex.Samples.open(name)), expected)
-        assert np.array_equal(room.combine({"Wall": (1, 0, 0)}, samples=samples),
-                              room.combine({"Wall": (1, 0, 0), "Floor": OAK}))
-        assert np.array_equal(room.combine({"Floor": (1, 0, 0)}, samples=samples), room.combine({"Floor": (1, 0, 0)}))
+            room.lift()
+            assert np.array_equal(room.combine(), plain)
+            room.lay_samples(name)
+            assert np.array_equal(room.combine(), expected)
+        room.lift("Floor")
+        assert np.array_equal(room.combine(), plain)
     check(lib_read("expected-samples.exr"), as_written(lib_read("samples.exr")))
 
 

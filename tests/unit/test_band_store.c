@@ -59,7 +59,7 @@ static void put_band(void *context, int index, int thread)
 }
 
 /* Move all parts of the set's size, but for the beauty, into a band store of the set. */
-static void store_parts(RetexSet *set)
+static RetexBandStore *store_parts(RetexSet *set)
 {
     RetexError err;
     int *numbers = calloc((size_t)set->nparts, sizeof *numbers);
@@ -77,10 +77,11 @@ static void store_parts(RetexSet *set)
             continue;
         free(set->parts[i].image.pixels);
         set->parts[i].image.pixels = NULL;
-        set->parts[i].store_image = numbers[i] + 1;
+        set->parts[i].source_part = numbers[i];
     }
-    set->store = job.store;
+    test_must(retex_set_take_store(set, job.store, &err), &err);
     free(numbers);
+    return job.store;
 }
 
 static void expect_same_file(void)
@@ -118,9 +119,9 @@ static void a_set_in_a_band_store_is_written_as_one_in_memory(void **state)
         test_make_footprints(set);
         darken(set);
         store.compress = compress;
-        test_must(retex_set_write(set, NULL, path, &store, 0, &err), &err);
+        test_must(retex_set_write(set, path, &store, 0, &err), &err);
         store_parts(set);
-        test_must(retex_set_write(set, NULL, other, &store, 0, &err), &err);
+        test_must(retex_set_write(set, other, &store, 0, &err), &err);
         expect_same_file();
         retex_set_close(&set);
     }
@@ -131,14 +132,13 @@ static void a_loaded_set_is_what_a_file_gives(void **state)
     (void)state;
     RetexError err;
     RetexSet *set = test_set(WIDTH, HEIGHT, 8), *read = NULL;
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, &read, NULL, 2, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, &read, 2, &err), &err);
     store_parts(set);
     test_must(retex_set_load(set, 2, &err), &err);
-    assert_null(set->store);
     for (int i = 1; i < set->nparts; i++) {
         const RetexImage *a = &set->parts[i].image, *b = &read->parts[i].image;
-        assert_int_equal(set->parts[i].store_image, 0);
+        assert_null(set->parts[i].source);
         assert_int_equal(retex_image_index(a, 0, a->height), retex_image_index(b, 0, b->height));
         if (a->width == WIDTH)
             assert_memory_equal(a->pixels, b->pixels, retex_image_index(a, 0, a->height) * sizeof(float));
@@ -237,20 +237,20 @@ static void what_is_damaged_is_not_read_back(void **state)
         RetexStoreParams store = RETEX_STORE_INIT;
         RetexSet *set = test_set(WIDTH, HEIGHT, 7);
         store.compress = !plain;
-        store_parts(set);
-        for (int image = 0; image < set->store->nimages; image++) {
-            const RetexBandStoreChunk *chunk = retex_band_store_chunk(set->store, image, image % BANDS);
+        RetexBandStore *kept = store_parts(set);
+        for (int image = 0; image < kept->nimages; image++) {
+            const RetexBandStoreChunk *chunk = retex_band_store_chunk(kept, image, image % BANDS);
             const uint64_t at = chunk->offset + (uint64_t)(image * 37) % (chunk->bytes ? chunk->bytes : 1);
             if (!chunk->bytes)
                 continue;
-            flip(set->store, at);
-            assert_int_equal(retex_set_write(set, NULL, path, &store, 0, &err), RETEX_EFORMAT);
+            flip(kept, at);
+            assert_int_equal(retex_set_write(set, path, &store, 0, &err), RETEX_EFORMAT);
             assert_non_null(strstr(err.message, "is damaged: a checksum is wrong"));
             assert_int_equal(access(path, F_OK), -1);
             assert_int_equal(retex_set_load(set, 1, &err), RETEX_EFORMAT);
-            flip(set->store, at);
+            flip(kept, at);
         }
-        test_must(retex_set_write(set, NULL, path, &store, 0, &err), &err);
+        test_must(retex_set_write(set, path, &store, 0, &err), &err);
         unlink(path);
         retex_set_close(&set);
     }

@@ -259,7 +259,7 @@ static void test_set_parts(void **state)
     int colors = 0;
     test_must(retex_set_add_part(set, "albedo", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
     test_must(retex_set_add_part(set, "normal", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     for (int i = 0; i < set->nparts; i++) {
         const RetexColorTag tag = header_of(path, i);
         const int color = retex_set_part_is_color(set, i);

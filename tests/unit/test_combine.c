@@ -25,28 +25,27 @@ static RetexTextureSpec constant_spec(const char *target, float r, float g, floa
     return spec;
 }
 
-static double footprint_value(const RetexSet *set, const RetexSamples *samples, int f, size_t i)
+static double footprint_value(const RetexSet *set, int f, size_t i)
 {
-    const float *image = samples && samples->images[f].pixels ? samples->images[f].pixels
-                                                              : set->parts[set->footprints[f].albedo].image.pixels;
-    return (double)image[i];
+    const RetexImage *sampled = test_laid(set, f);
+    return (double)(sampled ? sampled : &set->parts[set->footprints[f].albedo].image)->pixels[i];
 }
 
 /* Of random weights either all colours have some, or none has. */
-static double mixture_value(const RetexSet *set, const RetexSamples *samples, const RetexMixture *mixture, size_t i)
+static double mixture_value(const RetexSet *set, const RetexMixture *mixture, size_t i)
 {
     double sum = 0, weights = 0;
     for (int k = 0; k < mixture->nshares; k++) {
         const RetexImage *weight = &set->parts[mixture->shares[k].weight].image;
         double w = (double)weight->pixels[weight->channels == 3 ? i : i / 3];
-        sum += w * footprint_value(set, samples, mixture->shares[k].footprint, i);
+        sum += w * footprint_value(set, mixture->shares[k].footprint, i);
         weights += w;
     }
     return weights > 0 ? sum / weights : 0;
 }
 
 /* The scalar reference, straight from Eq. 4 of the supplement. */
-static double reference_value(const RetexSet *set, const RetexSamples *samples, int cross, size_t i)
+static double reference_value(const RetexSet *set, int cross, size_t i)
 {
     double sum = 0;
     for (int t = 0; t < set->nterms; t++) {
@@ -56,29 +55,28 @@ static double reference_value(const RetexSet *set, const RetexSamples *samples, 
         double product = (double)set->parts[term->radiance].image.pixels[i];
         for (int k = 0; k < term->nfactors; k++) {
             int f = test_factor_number(term->factors[k]);
-            product *= f < 0 ? mixture_value(set, samples, &set->mixtures[MIXTURE(f)], i)
-                             : footprint_value(set, samples, f, i);
+            product *= f < 0 ? mixture_value(set, &set->mixtures[MIXTURE(f)], i) : footprint_value(set, f, i);
         }
         sum += product;
     }
     return sum;
 }
 
-static void check_picture(const RetexImage *picture, const RetexSet *set, const RetexSamples *samples, int cross)
+static void check_picture(const RetexImage *picture, const RetexSet *set, int cross)
 {
     for (size_t i = 0; i < (size_t)set->width * (size_t)set->height * 3; i++) {
-        double want = reference_value(set, samples, cross, i);
+        double want = reference_value(set, cross, i);
         if (fabs((double)picture->pixels[i] - want) > 1e-5 * fabs(want) + 1e-9)
             fail_msg("value %zu is %g, not %g", i, (double)picture->pixels[i], want);
     }
 }
 
-static RetexSamples *sample(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads)
+/* Lays these textures on the set, and no others. */
+static void lay(RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads)
 {
-    RetexSamples *samples;
     RetexError err = {0};
-    test_must(retex_sample(&samples, set, specs, nspecs, nthreads, &err), &err);
-    return samples;
+    retex_set_lift(set, -1);
+    test_must(retex_sample(set, specs, nspecs, nthreads, &err), &err);
 }
 
 static void test_reference(void **state)
@@ -92,21 +90,21 @@ static void test_reference(void **state)
             test_make_footprints(set);
         RetexTextureSpec specs[2] = {constant_spec("Wall", 0.9f, 0.1f, 0.4f), constant_spec("floor", 0.2f, 0.7f, 0)};
         for (int nspecs = 0; nspecs <= 2; nspecs++) {
-            RetexSamples *samples = sample(set, specs, nspecs, 2);
+            lay(set, specs, nspecs, 2);
             for (int cross = 0; cross <= 3; cross += cross ? 1 : 2) {
                 RetexImage picture = {0};
                 RetexError err = {0};
                 params.cross = cross;
-                test_must(retex_combine(&picture, set, samples, &params, NULL, 2, &err), &err);
-                check_picture(&picture, set, samples, cross);
+                test_must(retex_combine(&picture, set, &params, NULL, 2, &err), &err);
+                check_picture(&picture, set, cross);
                 retex_image_free(&picture);
             }
-            retex_samples_close(&samples);
         }
         RetexImage picture = {0};
+        retex_set_lift(set, -1);
         RetexError err = {0};
-        test_must(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), &err);
-        check_picture(&picture, set, NULL, 3);
+        test_must(retex_combine(&picture, set, NULL, NULL, 0, &err), &err);
+        check_picture(&picture, set, 3);
         retex_image_free(&picture);
         retex_set_close(&set);
     }
@@ -132,11 +130,11 @@ static void test_samples(void **state)
     spec.rotate = 20;
     RetexTexture *texture;
     test_must(retex_texture_load(&texture, &spec, 1, &err), &err);
-    RetexSamples *samples = sample(set, &spec, 1, 0);
+    lay(set, &spec, 1, 0);
     int floor_target = retex_set_find_target(set, "Floor"), empty = 0;
     for (int f = 0; f < set->nfootprints; f++) {
         if (set->footprints[f].target != floor_target) {
-            assert_null(samples->images[f].pixels);
+            assert_null(test_laid(set, f));
             continue;
         }
         for (size_t i = 0; i < 40 * 20; i++) {
@@ -146,13 +144,11 @@ static void test_samples(void **state)
             retex_texture_filter(texture, RETEX_TEXTURE_GAUSSIAN, uv, sd, 2, 1, want, 4);
             empty += !(uv[2] > 0);
             for (int c = 0; c < 3; c++)
-                assert_float_equal(samples->images[f].pixels[3 * i + (size_t)c], want[c], 1e-6);
+                assert_float_equal(test_laid(set, f)->pixels[3 * i + (size_t)c], want[c], 1e-6);
         }
     }
     assert_true(empty > 0);
-    assert_string_equal(samples->textures[floor_target], path);
-    test_must(retex_samples_check(samples, set, &err), &err);
-    retex_samples_close(&samples);
+    assert_string_equal(set->targets[floor_target].texture, path);
     retex_texture_close(&texture);
     retex_image_free(&im);
     remove(path);
@@ -175,13 +171,12 @@ static void test_transparent(void **state)
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
     snprintf(spec.image, sizeof spec.image, "%s", path);
-    RetexSamples *samples = sample(set, &spec, 1, 1);
-    test_must(retex_combine(&was, set, NULL, NULL, NULL, 1, &err), &err);
-    test_must(retex_combine(&is, set, samples, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&was, set, NULL, NULL, 1, &err), &err);
+    lay(set, &spec, 1, 1);
+    test_must(retex_combine(&is, set, NULL, NULL, 1, &err), &err);
     /* Where a footprint has no coverage its sample is black, and so is its albedo. */
     for (size_t i = 0; i < 24 * 24 * 3; i++)
         assert_float_equal(is.pixels[i], was.pixels[i], 1e-6f + 1e-6f * fabsf(was.pixels[i]));
-    retex_samples_close(&samples);
     retex_image_free(&clear);
     retex_image_free(&was);
     retex_image_free(&is);
@@ -198,14 +193,13 @@ static void test_threads(void **state)
     RetexImage first = {0};
     RetexError err = {0};
     for (int threads = 1; threads <= 7; threads += threads) {
-        RetexSamples *samples = sample(set, specs, 2, threads);
+        lay(set, specs, 2, threads);
         RetexImage picture = {0};
-        test_must(retex_combine(&picture, set, samples, NULL, NULL, threads, &err), &err);
+        test_must(retex_combine(&picture, set, NULL, NULL, threads, &err), &err);
         if (!first.pixels)
             test_must(retex_image_copy(&first, &picture, &err), &err);
         assert_memory_equal(first.pixels, picture.pixels, 150 * 90 * 3 * sizeof(float));
         retex_image_free(&picture);
-        retex_samples_close(&samples);
     }
     retex_image_free(&first);
     retex_set_close(&set);
@@ -218,12 +212,12 @@ static void test_region(void **state)
     test_make_footprints(set);
     RetexImage whole = {0}, part = {0};
     RetexError err = {0};
-    test_must(retex_combine(&whole, set, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&whole, set, NULL, NULL, 1, &err), &err);
     test_must(retex_image_alloc(&part, 40, 30, 3, &err), &err);
     for (size_t i = 0; i < 40 * 30 * 3; i++)
         part.pixels[i] = -7;
     RetexRoi roi = {5, 6, 21, 19, 1, 2};
-    test_must(retex_combine(&part, set, NULL, NULL, &roi, 2, &err), &err);
+    test_must(retex_combine(&part, set, NULL, &roi, 2, &err), &err);
     for (int y = 0; y < 30; y++)
         for (int x = 0; x < 40; x++)
             for (int c = 0; c < 3; c++) {
@@ -233,7 +227,7 @@ static void test_region(void **state)
             }
     RetexImage wrong = {0};
     test_must(retex_image_alloc(&wrong, 40, 31, 3, &err), &err);
-    assert_int_equal(retex_combine(&wrong, set, NULL, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_combine(&wrong, set, NULL, NULL, 1, &err), RETEX_EINVAL);
     retex_image_free(&wrong);
     retex_image_free(&whole);
     retex_image_free(&part);
@@ -244,49 +238,57 @@ static void test_mistakes(void **state)
 {
     (void)state;
     RetexSet *set = test_set(8, 8, 6), *other = test_set(9, 8, 6);
-    RetexSamples *samples;
     RetexError err = {0};
     RetexTextureSpec specs[2] = {constant_spec("Wall", 1, 1, 1), constant_spec("wall", 0, 0, 0)};
-    assert_int_equal(retex_sample(&samples, set, specs, 2, 1, &err), RETEX_EINVAL);
-    assert_null(samples);
+    const int nparts = set->nparts;
+    assert_int_equal(retex_sample(set, specs, 2, 1, &err), RETEX_EINVAL);
     assert_non_null(strstr(err.message, "two textures"));
     strcpy(specs[0].target, "Ceiling");
-    assert_int_equal(retex_sample(&samples, set, specs, 1, 1, &err), RETEX_ENOTFOUND);
+    assert_int_equal(retex_sample(set, specs, 1, 1, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "Floor, Wall"));
-    samples = sample(other, specs + 1, 1, 1);
+    lay(other, specs + 1, 1, 1);
+    assert_int_equal(retex_set_lay(set, other, &err), RETEX_EINVAL);
+    assert_int_equal(set->nparts, nparts);
+    assert_false(retex_set_has_laid(set));
     RetexImage picture = {0};
-    assert_int_equal(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), RETEX_EINVAL);
-    assert_null(picture.pixels);
     RetexCombineParams params = RETEX_COMBINE_INIT;
     params.cross = 1;
-    assert_int_equal(retex_combine(&picture, set, NULL, &params, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_combine(&picture, set, &params, NULL, 1, &err), RETEX_EINVAL);
     set->terms[0].radiance = 999;
-    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), RETEX_EFORMAT);
-    retex_samples_close(&samples);
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, 1, &err), RETEX_EFORMAT);
     retex_set_close(&set);
     retex_set_close(&other);
 }
 
-static void test_merge(void **state)
+/* What is laid on one set is moved to another of the same render, and stays beside what is laid there. */
+static void test_lay(void **state)
 {
     (void)state;
-    RetexSet *set = test_set(12, 8, 6), *other = test_set(13, 8, 6);
+    RetexSet *set = test_set(12, 8, 6), *both = test_set(12, 8, 6), *wall = test_set(12, 8, 6),
+             *other = test_set(13, 8, 6);
     RetexError err = {0};
     RetexTextureSpec specs[2] = {constant_spec("Floor", 1, 0.5f, 0), constant_spec("Wall", 0, 0.5f, 1)};
-    RetexSamples *floor_only = sample(set, specs, 1, 1), *wall_only = sample(set, specs + 1, 1, 1);
-    RetexSamples *both = sample(set, specs, 2, 1), *foreign = sample(other, specs, 1, 1);
-    assert_int_equal(retex_samples_merge(floor_only, foreign, 0, &err), RETEX_EINVAL);
-    test_must(retex_samples_merge(floor_only, wall_only, 0, &err), &err);
-    for (int i = 0; i < both->nimages; i++) {
-        assert_non_null(floor_only->images[i].pixels);
-        assert_memory_equal(floor_only->images[i].pixels, both->images[i].pixels, 12 * 8 * 3 * sizeof(float));
-    }
-    assert_memory_equal(floor_only->textures, both->textures, sizeof both->textures);
-    retex_samples_close(&floor_only);
-    retex_samples_close(&wall_only);
-    retex_samples_close(&both);
-    retex_samples_close(&foreign);
+    const int nparts = set->nparts;
+    lay(set, specs, 1, 1);
+    lay(wall, specs + 1, 1, 1);
+    lay(both, specs, 2, 1);
+    lay(other, specs, 1, 1);
+    assert_int_equal(retex_set_lay(set, other, &err), RETEX_EINVAL);
+    test_must(retex_set_lay(set, wall, &err), &err);
+    assert_int_equal(set->nparts, both->nparts);
+    for (int f = 0; f < both->nfootprints; f++)
+        assert_memory_equal(test_laid(set, f)->pixels, test_laid(both, f)->pixels, 12 * 8 * 3 * sizeof(float));
+    for (int t = 0; t < set->ntargets; t++)
+        assert_string_equal(set->targets[t].texture, both->targets[t].texture);
+    assert_false(retex_set_has_laid(wall));
+    retex_set_lift(set, retex_set_find_target(set, "Floor"));
+    for (int f = 0; f < set->nfootprints; f++)
+        assert_int_equal(test_laid(set, f) != NULL, set->footprints[f].target == retex_set_find_target(set, "Wall"));
+    retex_set_lift(set, -1);
+    assert_int_equal(set->nparts, nparts);
     retex_set_close(&set);
+    retex_set_close(&both);
+    retex_set_close(&wall);
     retex_set_close(&other);
 }
 
@@ -325,14 +327,14 @@ static void test_speed(void **state)
     RetexSet *set = test_set(1280, 720, 8);
     RetexImage picture = {0};
     RetexError err = {0};
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     clock_t began = clock();
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     double fast = (double)(clock() - began) / CLOCKS_PER_SEC;
     volatile double sink = 0;
     began = clock();
     for (size_t i = 0; i < 1280 * 720 * 3; i++)
-        sink = sink + reference_value(set, NULL, 3, i);
+        sink = sink + reference_value(set, 3, i);
     double slow = (double)(clock() - began) / CLOCKS_PER_SEC;
     print_message("%d terms at 1280 x 720: %.1f ms a core, %.1f times the reference\n", set->nterms, 1e3 * fast,
                   slow / fast);
@@ -345,7 +347,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference), cmocka_unit_test(test_samples), cmocka_unit_test(test_transparent),
         cmocka_unit_test(test_threads),   cmocka_unit_test(test_region),  cmocka_unit_test(test_mistakes),
-        cmocka_unit_test(test_merge),     cmocka_unit_test(test_kernel),  cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_lay),       cmocka_unit_test(test_kernel),  cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,9 +69,9 @@ static void file_and_memory_are_the_same(void **state)
     assert_true(descriptor >= 0);
     close(descriptor);
     stack(set, 86);
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, &memory, NULL, 2, &err), &err);
-    test_must(retex_set_open(path, &file, NULL, 2, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, &memory, 2, &err), &err);
+    test_must(retex_set_open(path, &file, 2, &err), &err);
     remove(path);
     assert_null(file->parts[1].image.pixels);
     test_must(retex_set_compact(&one, memory, NULL, 2, &err), &err);
@@ -129,8 +129,8 @@ static void survives_writing(void **state)
     const int file = mkstemp(path);
     assert_true(file >= 0);
     close(file);
-    test_must(retex_set_write(compact, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, &read, NULL, 1, &err), &err);
+    test_must(retex_set_write(compact, path, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, &read, 1, &err), &err);
     expect_same_picture(compact, read, bright);
     remove(path);
     retex_set_close(&set);

@@ -102,8 +102,6 @@ static void make(Fixture *f, Truth *truth, const FilmLayout *layout, int ntarget
 static void combine(RetexImage *picture, const RetexSet *set, int edited)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    RetexSamples *samples = NULL;
-    RetexError err = {0};
     int count = 0;
     for (int t = 0; t < set->ntargets; t++) {
         if (!(edited >> t & 1))
@@ -115,10 +113,7 @@ static void combine(RetexImage *picture, const RetexSet *set, int edited)
         snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("halves.exr"));
         specs[count++] = spec;
     }
-    if (count)
-        test_must(retex_sample(&samples, set, specs, count, 1, &err), &err);
-    test_must(retex_combine(picture, set, samples, NULL, NULL, 1, &err), &err);
-    retex_samples_close(&samples);
+    test_combine(picture, set, specs, count, NULL);
 }
 
 static double largest_error(const Fixture *f, const Truth *truth, int edited)
@@ -274,12 +269,12 @@ static void only_those_asked_for_are_loaded(void **state)
     Truth truth;
     RetexError err = {0};
     make(&f, &truth, &footprints_layout, 2, 2);
-    test_must(retex_set_write(f.set, NULL, test_in_folder("corrections.exr"), NULL, 1, &err), &err);
+    test_must(retex_set_write(f.set, test_in_folder("corrections.exr"), NULL, 1, &err), &err);
     for (int all = 0; all < 2; all++) {
         RetexSet *set = NULL;
         int corrections[2] = {0};
-        test_must(retex_set_open(test_in_folder("corrections.exr"), &set, NULL, 1, &err), &err);
-        test_must(retex_set_preload(set, NULL, all ? NULL : second, UINT64_MAX, 1, &err), &err);
+        test_must(retex_set_open(test_in_folder("corrections.exr"), &set, 1, &err), &err);
+        test_must(retex_set_preload(set, all ? NULL : second, UINT64_MAX, 1, &err), &err);
         for (int t = 0; t < set->nterms; t++) {
             const int loaded = set->parts[set->terms[t].radiance].image.pixels != NULL,
                       of = corrected_target(&set->terms[t]);

@@ -127,7 +127,7 @@ static void test_beauty_is_the_recombination(void **state)
         RetexImage picture = {0};
         RetexError err = {0};
         denoise_all(set, NULL, 2);
-        test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+        test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
         assert_memory_equal(picture.pixels, set->parts[0].image.pixels, sizeof(float) * 3 * 70 * 60);
         retex_image_free(&picture);
         retex_set_close(&set);

@@ -285,7 +285,7 @@ static void pictures_of_lamps_are_renewed(void **state)
         snprintf(name, sizeof name, "picture%d", i);
         values[3 * i] = values[3 * i + 1] = values[3 * i + 2] = 1;
         params.parameters = values, params.terms_only = 1;
-        test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+        test_must(retex_combine(&made, set, &params, NULL, 2, &err), &err);
         const float *picture = set->parts[retex_set_find_part(set, name)].image.pixels;
         for (int k = 0; k < 3 * 70 * 52; k++)
             assert_float_equal(picture[k], made.pixels[k], 1e-3 * (double)made.pixels[k] + 1e-6);
@@ -300,13 +300,13 @@ static void strips_and_threads_change_nothing(void **state)
     for (int k = 0; k < 2; k++) {
         RetexSet *sets[3] = {noisy_set(layouts[k], 50, 150, 1, 1), NULL, NULL};
         RetexError err = {0};
-        test_must(retex_set_write(sets[0], NULL, test_in_folder("noisy.exr"), NULL, 2, &err), &err);
+        test_must(retex_set_write(sets[0], test_in_folder("noisy.exr"), NULL, 2, &err), &err);
         retex_set_close(&sets[0]);
         for (int n = 0; n < 3; n++) {
             char name[32];
             snprintf(name, sizeof name, "%d.exr", n);
-            test_must(n < 2 ? retex_set_read(test_in_folder("noisy.exr"), &sets[n], NULL, 2, &err)
-                            : retex_set_open(test_in_folder("noisy.exr"), &sets[n], NULL, 2, &err),
+            test_must(n < 2 ? retex_set_read(test_in_folder("noisy.exr"), &sets[n], 2, &err)
+                            : retex_set_open(test_in_folder("noisy.exr"), &sets[n], 2, &err),
                       &err);
             test_must(retex_denoise(sets[n], NULL, NULL, 1 + n, &err), &err);
             test_must(retex_set_load(sets[n], 2, &err), &err);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "../oidn/stand_in.h"
+#include "set/source.h"
 
 enum { ACROSS = 90, DOWN = 130, PIXELS = ACROSS * DOWN };
 
@@ -279,12 +280,11 @@ static void denoise_file(const char *from, const char *to, const char *denoiser,
     RetexError err = {0};
     RetexSet *set = NULL;
     params.near = to, params.denoiser = denoiser;
-    test_must(in_memory ? retex_set_read(from, &set, NULL, nthreads, &err)
-                        : retex_set_open(from, &set, NULL, nthreads, &err),
+    test_must(in_memory ? retex_set_read(from, &set, nthreads, &err) : retex_set_open(from, &set, nthreads, &err),
               &err);
     test_must(retex_denoise(set, &params, NULL, nthreads, &err), &err);
-    assert_int_equal(!in_memory, set->store != NULL);
-    test_must(retex_set_write(set, NULL, to, NULL, 0, &err), &err);
+    assert_int_equal(!in_memory, retex_part_store(&set->parts[0]) != NULL);
+    test_must(retex_set_write(set, to, NULL, 0, &err), &err);
     retex_set_close(&set);
 }
 
@@ -297,7 +297,7 @@ static void test_strips(void **state)
         RetexError err = {0};
         RetexSet *set = denoise_set(layouts[k / 2], 40, 300);
         denoise_add_noise(set, 3);
-        test_must(retex_set_write(set, NULL, test_in_folder("noisy.exr"), NULL, 0, &err), &err);
+        test_must(retex_set_write(set, test_in_folder("noisy.exr"), NULL, 0, &err), &err);
         retex_set_close(&set);
         denoise_file(test_in_folder("noisy.exr"), test_in_folder("memory.exr"), denoisers[k % 2], 1, 1);
         denoise_file(test_in_folder("noisy.exr"), test_in_folder("strips.exr"), denoisers[k % 2], 0, 3);

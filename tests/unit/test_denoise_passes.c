@@ -331,9 +331,9 @@ static void test_set_without_light(void **state)
     const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
     set->nterms = 0;
     test_must(retex_set_add_term(set, &picture, NULL, &err), &err);
-    test_must(retex_set_write(set, NULL, test_in_folder("dark.exr"), NULL, 2, &err), &err);
+    test_must(retex_set_write(set, test_in_folder("dark.exr"), NULL, 2, &err), &err);
     retex_set_close(&set);
-    test_must(retex_set_open(test_in_folder("dark.exr"), &set, NULL, 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("dark.exr"), &set, 2, &err), &err);
     test_must(retex_denoise(set, NULL, NULL, 2, &err), &err);
     test_must(retex_set_load(set, 2, &err), &err);
     retex_set_close(&set);

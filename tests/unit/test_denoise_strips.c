@@ -1,6 +1,7 @@
 /* Denoising a set that stays in its file: the result is the same as in memory, and no temporary file remains. */
 #include "lib_denoise.h"
 #include "lib_folder.h"
+#include "set/source.h"
 #include <cmocka.h>
 
 #include <stdio.h>
@@ -39,7 +40,7 @@ static void write_noisy(const char *path, const char *layout, int width, int hei
         params.lossless = 1;
         test_must(retex_pack_write(set, path, &params, NULL, 0, &err), &err);
     } else {
-        test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+        test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     }
     retex_set_close(&set);
 }
@@ -51,14 +52,12 @@ static void denoise_file(const char *from, const char *to, int in_memory, int nt
     RetexError err = {0};
     RetexSet *set = NULL;
     params.near = to;
-    test_must(in_memory ? retex_set_read(from, &set, NULL, nthreads, &err)
-                        : retex_set_open(from, &set, NULL, nthreads, &err),
+    test_must(in_memory ? retex_set_read(from, &set, nthreads, &err) : retex_set_open(from, &set, nthreads, &err),
               &err);
     test_must(retex_denoise(set, &params, NULL, nthreads, &err), &err);
-    assert_int_equal(!in_memory, set->store != NULL);
-    assert_null(set->source);
+    assert_int_equal(!in_memory, retex_part_store(&set->parts[0]) != NULL);
     assert_int_equal(set->denoised, 1);
-    test_must(retex_set_write(set, NULL, to, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, to, NULL, 0, &err), &err);
     retex_set_close(&set);
 }
 
@@ -104,14 +103,15 @@ static void test_what_comes_out_is_a_set(void **state)
     RetexImage pictures[2] = {{0}, {0}};
     RetexError err = {0};
     write_noisy(test_in_folder("noisy.exr"), "footprints", 50, 150);
-    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], NULL, 2, &err), &err);
-    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], NULL, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], 2, &err), &err);
     for (int k = 0; k < 2; k++) {
         char name[32];
         snprintf(name, sizeof name, "%d.retex", k);
         test_must(retex_denoise(sets[k], NULL, NULL, 2, &err), &err);
-        assert_int_equal(sets[k]->store != NULL, k == 1); /* what was denoised in strips is in a band store */
-        test_must(retex_combine(&pictures[k], sets[k], NULL, NULL, NULL, 2, &err), &err);
+        assert_int_equal(retex_part_store(&sets[k]->parts[0]) != NULL,
+                         k == 1); /* what was denoised in strips is in a band store */
+        test_must(retex_combine(&pictures[k], sets[k], NULL, NULL, 2, &err), &err);
         test_must(retex_pack_write(sets[k], test_in_folder(name), &params, NULL, 0, &err), &err);
     }
     assert_memory_equal(pictures[0].pixels, pictures[1].pixels, sizeof(float) * 3 * 50 * 150);
@@ -130,8 +130,8 @@ static void test_a_region_of_an_open_set(void **state)
     RetexSet *sets[2] = {NULL, NULL};
     RetexError err = {0};
     write_noisy(test_in_folder("noisy.exr"), "paper", 50, 150);
-    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], NULL, 2, &err), &err);
-    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], NULL, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], 2, &err), &err);
     for (int k = 0; k < 2; k++)
         test_must(retex_denoise(sets[k], NULL, &roi, 2, &err), &err);
     denoise_expect_same(sets[0], sets[1]);

@@ -117,22 +117,21 @@ static RetexSet *small_set(int spp)
     return set;
 }
 
-/* Samples that hold these numbers, one a footprint. */
-static RetexSamples *small_samples(const RetexSet *set, const float *values)
+/* Lays a texture on the set that shows these numbers, one a footprint. */
+static void lay_values(RetexSet *set, const float *values)
 {
-    RetexSamples *samples;
     RetexTextureSpec spec = constant_spec("Floor", 0, 0, 0);
     RetexError err = {0};
-    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
-    for (int i = 0; i < samples->nimages; i++)
+    test_must(retex_sample(set, &spec, 1, 1, &err), &err);
+    for (int i = 0; i < set->nfootprints; i++)
         for (int c = 0; c < 3; c++)
-            samples->images[i].pixels[c] = values[i];
-    return samples;
+            test_laid(set, i)->pixels[c] = values[i];
 }
 
-static void estimate(float rgb[3], const RetexSet *set, const float *values, const float *variances)
+static void estimate(float rgb[3], RetexSet *set, const float *values, const float *variances)
 {
-    RetexSamples *samples = small_samples(set, values), *scatter = small_samples(set, variances);
+    float (*scatter)[3] = calloc((size_t)set->nfootprints, sizeof *scatter);
+    assert_true(scatter);
     const float **rows = calloc((size_t)set->nfootprints, sizeof *rows);
     assert_true(rows);
     RetexEdited edited;
@@ -140,8 +139,9 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
     RetexViewReader reader;
     RetexError err = {0};
     for (int i = 0; i < set->nfootprints; i++)
-        rows[i] = scatter->images[i].pixels;
-    test_must(retex_edited_open(&edited, set, samples, NULL, NULL, EDITED_TERMS, 1, &err), &err);
+        rows[i] = scatter[i], scatter[i][0] = scatter[i][1] = scatter[i][2] = variances[i];
+    lay_values(set, values);
+    test_must(retex_edited_open(&edited, set, NULL, NULL, EDITED_TERMS, 1, &err), &err);
     test_must(retex_derivatives_open(&derivatives, &edited, &err), &err);
     test_must(retex_view_reader_open(&reader, &edited.view, &err), &err);
     float *scratch = malloc(sizeof *scratch * retex_estimate_scratch(&derivatives));
@@ -152,8 +152,7 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
     retex_edited_close(&edited);
     free(scratch);
     free(rows);
-    retex_samples_close(&samples);
-    retex_samples_close(&scatter);
+    free(scatter);
 }
 
 /* How much light and texture are taken to agree, by kind: what is left of a footprint that endless paths met. */
@@ -325,38 +324,28 @@ static void a_mixture_of_nothing_scatters_nothing(void **state)
 
 /* ---- textures within footprints ---- */
 
-static void sample_variances(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, RetexSamples **samples,
-                             RetexSamples **variances)
-{
-    RetexError err = {0};
-    test_must(retex_sample(samples, set, specs, nspecs, 2, &err), &err);
-    *variances = test_variances(set, specs, nspecs);
-}
-
 static void a_wide_footprint_sees_all_of_a_texture(void **state)
 {
     (void)state;
     static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD, RETEX_FOOTPRINT_HIT};
     for (size_t k = 0; k < 3; k++) {
         RetexSet *set = small_set(16);
-        RetexSamples *samples, *variances;
+        RetexError err = {0};
         int wide = add_footprint(set, kinds[k], 1, 6), none = add_footprint(set, kinds[k], 0, 6);
         RetexTextureSpec spec = store_texture("Floor", 0.375f, 0.125f, 1); /* 0.75 over a quarter, else 0.25 */
-        sample_variances(set, &spec, 1, &samples, &variances);
+        test_must(retex_sample(set, &spec, 1, 2, &err), &err);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(test_laid(set, wide)->pixels[c], 0.375f, 0.01f);
+        test_lay_variances(set, &spec, 1);
         for (int c = 0; c < 3; c++) {
-            assert_float_equal(samples->images[wide].pixels[c], 0.375f, 0.01f);
-            assert_float_equal(variances->images[wide].pixels[c], 0.25f * 0.75f * 0.5f * 0.5f, 0.002f);
-            assert_float_equal(variances->images[none].pixels[c], 0, 0);
+            assert_float_equal(test_laid(set, wide)->pixels[c], 0.25f * 0.75f * 0.5f * 0.5f, 0.002f);
+            assert_float_equal(test_laid(set, none)->pixels[c], 0, 0);
         }
-        retex_samples_close(&samples);
-        retex_samples_close(&variances);
         /* through a texture half clear half as much is seen of how it scatters */
         spec = store_texture("Floor", 0.375f, 0.125f, 0.5f);
-        sample_variances(set, &spec, 1, &samples, &variances);
+        test_lay_variances(set, &spec, 1);
         for (int c = 0; c < 3; c++)
-            assert_float_equal(variances->images[wide].pixels[c], 0.25f * 0.75f * 0.5f * 0.5f / 4, 0.001f);
-        retex_samples_close(&samples);
-        retex_samples_close(&variances);
+            assert_float_equal(test_laid(set, wide)->pixels[c], 0.25f * 0.75f * 0.5f * 0.5f / 4, 0.001f);
         retex_set_close(&set);
     }
 }
@@ -366,18 +355,13 @@ static void what_is_even_does_not_scatter(void **state)
     (void)state;
     RetexSet *set = test_set(40, 20, 3);
     for (int image = 0; image < 2; image++) {
-        RetexSamples *samples, *variances;
         RetexTextureSpec specs[2] = {constant_spec("Floor", 0.3f, 0.6f, 4), constant_spec("Wall", 0, 0, 0)};
         if (image)
             specs[0] = store_texture("Floor", 0.3f, 0, 1);
-        sample_variances(set, specs, 1 + image, &samples, &variances);
-        for (int i = 0; i < set->nfootprints; i++) {
-            assert_true(!samples->images[i].pixels == !variances->images[i].pixels);
-            for (size_t n = 0; samples->images[i].pixels && n < 40 * 20 * 3; n++)
-                assert_true(variances->images[i].pixels[n] >= 0 && variances->images[i].pixels[n] < 1e-6f);
-        }
-        retex_samples_close(&samples);
-        retex_samples_close(&variances);
+        test_lay_variances(set, specs, 1 + image);
+        for (int i = 0; i < set->nfootprints; i++)
+            for (size_t n = 0; test_laid(set, i) && n < 40 * 20 * 3; n++)
+                assert_true(test_laid(set, i)->pixels[n] >= 0 && test_laid(set, i)->pixels[n] < 1e-6f);
     }
     retex_set_close(&set);
 }
@@ -392,15 +376,11 @@ static void constants_have_only_what_was_folded(void **state)
     RetexTextureSpec specs[2] = {constant_spec("Floor", 0.3f, 0.6f, 0), constant_spec("Wall", 0.9f, 0.9f, 0.5f)};
     for (int folded = 0; folded < 2; folded++) {
         set->folded = 0.25 * folded;
-        RetexImage error = test_error(set, NULL, specs, 2, 2), picture = {0};
-        RetexSamples *samples;
-        RetexError err = {0};
-        test_must(retex_sample(&samples, set, specs, 2, 2, &err), &err);
-        test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
+        RetexImage error = test_error(set, specs, 2, 2), picture = {0};
+        test_combine(&picture, set, specs, 2, NULL);
         for (size_t i = 0; i < 40 * 30 * 3; i++) /* how colours of one value scatter is off by a float's rounding */
             assert_float_equal(error.pixels[i], set->folded * (double)picture.pixels[i],
                                1e-3f * picture.pixels[i] + 1e-9f);
-        retex_samples_close(&samples);
         retex_image_free(&picture);
         retex_image_free(&error);
     }
@@ -414,7 +394,7 @@ static void contrast_makes_errors(void **state)
     double sums[3];
     for (int k = 0; k < 3; k++) {
         RetexTextureSpec spec = store_texture("Floor", 0.5f, ldexpf(1, k - 6), 1);
-        RetexImage error = test_error(set, NULL, &spec, 1, 2);
+        RetexImage error = test_error(set, &spec, 1, 2);
         sums[k] = 0;
         for (size_t i = 0; i < 40 * 30 * 3; i++) {
             assert_true(isfinite(error.pixels[i]) && error.pixels[i] >= 0);
@@ -434,9 +414,9 @@ static void threads_change_nothing(void **state)
     RetexSet *set = test_set(150, 90, 4);
     test_make_footprints(set);
     RetexTextureSpec specs[2] = {store_texture("Wall", 0.4f, 0.1f, 1), constant_spec("Floor", 0.2f, 0.7f, 0)};
-    RetexImage one = test_error(set, NULL, specs, 2, 1);
+    RetexImage one = test_error(set, specs, 2, 1);
     for (int threads = 2; threads <= 7; threads += 5) {
-        RetexImage again = test_error(set, NULL, specs, 2, threads);
+        RetexImage again = test_error(set, specs, 2, threads);
         assert_memory_equal(one.pixels, again.pixels, 150 * 90 * 3 * sizeof(float));
         retex_image_free(&again);
     }
@@ -449,8 +429,7 @@ static void threads_change_nothing(void **state)
 static void files_change_nothing(void **state)
 {
     (void)state;
-    RetexSet *set = test_set(70, 90, 4), *open, *read;
-    RetexSamples *in_file, *in_memory;
+    RetexSet *set = test_set(70, 90, 4), *open, *read, *samples;
     RetexError err = {0};
     char set_path[80], samples_path[80];
     snprintf(set_path, sizeof set_path, "%s.set.exr", path);
@@ -459,24 +438,24 @@ static void files_change_nothing(void **state)
     assert_true(set->nmixtures > 0);
     RetexTextureSpec wall = store_texture("Wall", 0.4f, 0.1f, 0.5f);
     RetexTextureSpec specs[2] = {constant_spec("Floor", 0.2f, 0.7f, 0), wall};
-    test_must(retex_sample(&in_memory, set, specs, 2, 2, &err), &err);
-    test_must(retex_set_write(set, NULL, set_path, NULL, 0, &err), &err);
-    test_must(retex_set_write(NULL, in_memory, samples_path, NULL, 0, &err), &err);
-    retex_samples_close(&in_memory);
-    test_must(retex_set_read(set_path, &read, NULL, 1, &err), &err);
-    test_must(retex_set_read(samples_path, NULL, &in_memory, 1, &err), &err);
-    test_must(retex_set_open(set_path, &open, NULL, 1, &err), &err);
-    test_must(retex_set_open(samples_path, NULL, &in_file, 1, &err), &err);
-    RetexImage one = test_error(read, in_memory, &wall, 1, 1), other = test_error(open, in_file, &wall, 1, 2);
+    test_must(retex_set_write(set, set_path, NULL, 0, &err), &err);
+    test_must(retex_sample(set, specs, 2, 2, &err), &err);
+    test_must(retex_set_write_samples(set, samples_path, NULL, 0, &err), &err);
+    test_must(retex_set_read(set_path, &read, 1, &err), &err);
+    test_must(retex_sample(read, specs, 2, 2, &err), &err);
+    test_must(retex_set_open(set_path, &open, 1, &err), &err);
+    test_must(retex_set_open_any(samples_path, &samples, 1, &err), &err);
+    test_must(retex_set_lay(open, samples, &err), &err);
+    RetexImage one = test_error(read, &wall, 1, 1), other = test_error(open, &wall, 1, 2);
     assert_memory_equal(one.pixels, other.pixels, 70 * 90 * 3 * sizeof(float));
     retex_image_free(&other);
-    other = test_error(read, NULL, specs, 2, 1);
+    retex_set_lift(read, -1);
+    other = test_error(read, specs, 2, 1);
     for (size_t i = 0; i < 70 * 90 * 3; i++) /* a constant's own error is rounding */
         assert_float_equal(one.pixels[i], other.pixels[i], 1e-3f * one.pixels[i] + 1e-9f);
     retex_image_free(&one);
     retex_image_free(&other);
-    retex_samples_close(&in_memory);
-    retex_samples_close(&in_file);
+    retex_set_close(&samples);
     retex_set_close(&set);
     retex_set_close(&read);
     retex_set_close(&open);
@@ -493,23 +472,18 @@ static int refuse_rows(void *context, int y0, int y1, const float *rows, RetexEr
 static void mistakes_are_told(void **state)
 {
     (void)state;
-    RetexSet *set = test_set(20, 10, 4), *other = test_set(21, 10, 4);
+    RetexSet *set = test_set(20, 10, 4);
     RetexTextureSpec spec = constant_spec("Floor", 0.2f, 0.7f, 0);
     RetexTexture *textures[RETEX_MAX_TARGETS];
-    RetexSamples *foreign;
     RetexError err = {0};
     RetexCombineParams params = RETEX_COMBINE_INIT;
     test_must(retex_textures_load(textures, set, &spec, 1, 1, &err), &err);
-    test_must(retex_sample(&foreign, other, &spec, 1, 1, &err), &err);
-    assert_int_equal(retex_estimate_error(set, foreign, textures, NULL, refuse_rows, NULL, 1, &err), RETEX_EINVAL);
-    assert_int_equal(retex_estimate_error(set, NULL, textures, NULL, refuse_rows, NULL, 1, &err), RETEX_EIO);
+    assert_int_equal(retex_estimate_error(set, textures, NULL, refuse_rows, NULL, 1, &err), RETEX_EIO);
     assert_string_equal(err.message, "no more rows");
     params.cross = 1;
-    assert_int_equal(retex_estimate_error(set, NULL, textures, &params, refuse_rows, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_estimate_error(set, textures, &params, refuse_rows, NULL, 1, &err), RETEX_EINVAL);
     retex_textures_close(textures);
-    retex_samples_close(&foreign);
     retex_set_close(&set);
-    retex_set_close(&other);
 }
 
 int main(void)

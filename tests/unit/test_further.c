@@ -73,25 +73,20 @@ static double picture_value(const RetexSet *set, const float *paint, size_t i)
     return sum;
 }
 
-static RetexSamples *sampled(const RetexSet *set, const float *paint)
+static RetexTextureSpec painted(const RetexSet *set, const float *paint)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    RetexSamples *samples = NULL;
-    RetexError err = {0};
     strcpy(spec.target, set->targets[0].name);
     spec.constant = 1;
-    memcpy(spec.color, paint, sizeof spec.color);
-    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
-    return samples;
+    memcpy(spec.color, paint ? paint : spec.color, sizeof spec.color);
+    return spec;
 }
 
 static RetexImage combined(const RetexSet *set, const float *paint)
 {
-    RetexSamples *samples = paint ? sampled(set, paint) : NULL;
+    const RetexTextureSpec spec = painted(set, paint);
     RetexImage made = {0};
-    RetexError err = {0};
-    test_must(retex_combine(&made, set, samples, NULL, NULL, 2, &err), &err);
-    retex_samples_close(&samples);
+    test_combine(&made, set, &spec, paint != NULL, NULL);
     return made;
 }
 
@@ -172,9 +167,9 @@ static void files_keep_it(void **state)
         RetexPackParams params = RETEX_PACK_INIT;
         params.lossless = 1;
         test_must(packed ? retex_pack_write(set, path, &params, NULL, 2, &err)
-                         : retex_set_write(set, NULL, path, NULL, 2, &err),
+                         : retex_set_write(set, path, NULL, 2, &err),
                   &err);
-        test_must(retex_set_read(path, &back, NULL, 2, &err), &err);
+        test_must(retex_set_read(path, &back, 2, &err), &err);
         const RetexSetInfo info = retex_set_info(back);
         assert_int_equal(info.further_hits, HITS);
         assert_memory_equal(info.further_ratio, RATIO, sizeof RATIO);
@@ -189,16 +184,15 @@ static void streams_keep_it(void **state)
 {
     (void)state;
     RetexSet *set = further_set(), *back;
-    RetexSamples *samples = sampled(set, PAINT), *back_samples;
+    const RetexTextureSpec spec = painted(set, PAINT);
     RetexImage made = {0};
     RetexError err = {0};
     const char *path = test_in_folder("stream.exr");
-    test_must(retex_set_write(set, samples, path, NULL, 2, &err), &err);
-    test_must(retex_set_read(path, &back, &back_samples, 2, &err), &err);
-    test_must(retex_combine(&made, back, back_samples, NULL, NULL, 2, &err), &err);
+    test_must(retex_sample(set, &spec, 1, 1, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 2, &err), &err);
+    test_must(retex_set_read(path, &back, 2, &err), &err);
+    test_must(retex_combine(&made, back, NULL, NULL, 2, &err), &err);
     expect_picture(made, set, PAINT, 2e-3);
-    retex_samples_close(&samples);
-    retex_samples_close(&back_samples);
     retex_set_close(&back);
     retex_set_close(&set);
 }

@@ -215,7 +215,7 @@ static void test_the_manifest_part_is_an_image(void **state)
     RetexSet *set = test_set(24, 16, 3);
     RetexImage im = {0};
     RetexError err = {0};
-    test_must(retex_set_write(set, NULL, test_in_folder("set.exr"), NULL, 0, &err), &err);
+    test_must(retex_set_write(set, test_in_folder("set.exr"), NULL, 0, &err), &err);
     test_must(retex_image_read(&im, test_in_folder("set.exr"), NULL, 1, &err), &err);
     for (int i = 0; i < 24 * 16; i++)
         assert_true(near_half(set->parts[0].image.pixels[3 * i], im.pixels[4 * i]));

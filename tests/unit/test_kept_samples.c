@@ -19,7 +19,7 @@ static void picture_of(const Room *room, const RetexCombineParams *params, Retex
 {
     RetexError err = {0};
     test_must(retex_image_alloc(image, WIDTH, HEIGHT, 3, &err), &err);
-    test_must(retex_retexture(room->set, NULL, room->textures, params, retex_image_keep_rows, image, 2, &err), &err);
+    test_must(retex_retexture(room->set, room->textures, params, retex_image_keep_rows, image, 2, &err), &err);
 }
 
 static void open_room(Room *room, uint32_t seed, int footprints)
@@ -143,8 +143,8 @@ static void test_refused(void **state)
     assert_int_equal(retex_kept_samples_create(&kept[0], room.set, room.set->ntargets, NULL, &err), RETEX_EINVAL);
     test_must(retex_kept_samples_create(&kept[1], room.set, 0, NULL, &err), &err); /* of another target */
     test_must(retex_image_alloc(&image, WIDTH, HEIGHT, 3, &err), &err);
-    assert_int_equal(
-        retex_retexture(room.set, NULL, room.textures, &params, retex_image_keep_rows, &image, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_retexture(room.set, room.textures, &params, retex_image_keep_rows, &image, 1, &err),
+                     RETEX_EINVAL);
     retex_image_free(&image);
     retex_kept_samples_close(&kept[1]);
     close_room(&room);

@@ -64,7 +64,7 @@ static void expect_formula(const RetexSet *set, int lamps, const float *values, 
     RetexImage made = {0};
     RetexError err = {0};
     params.parameters = given;
-    test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+    test_must(retex_combine(&made, set, &params, NULL, 2, &err), &err);
     for (size_t i = 0; i < VALUES; i++) {
         const double want = formula(set, lamps, values, i);
         if (fabs((double)made.pixels[i] - want) > 1e-5 * fabs(want) + 1e-7)
@@ -118,7 +118,7 @@ static void light_that_lamps_have_in_common_is_that_of_all(void **state)
                     beyond[3 * l + c] = (float)((double)given[k][3 * l + c] - common[c] * (double)kept[3 * l + c]);
             }
             params.parameters = given[k];
-            test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+            test_must(retex_combine(&made, set, &params, NULL, 2, &err), &err);
             for (size_t i = 0; i < VALUES; i++) {
                 const double want = common[i % 3] * formula(set, 0, kept, i) + formula(set, 1, beyond, i);
                 if (fabs((double)made.pixels[i] - want) > 1e-5 * fabs(want) + 1e-6)
@@ -146,8 +146,8 @@ static void files_keep_what_lamps_are(void **state)
     RetexSet *set = test_set(WIDTH, HEIGHT, 3), *back;
     RetexError err = {0};
     test_add_lamp_terms(set, 1, 1);
-    test_must(retex_set_write(set, NULL, test_in_folder("lamps.exr"), NULL, 2, &err), &err);
-    test_must(retex_set_read(test_in_folder("lamps.exr"), &back, NULL, 2, &err), &err);
+    test_must(retex_set_write(set, test_in_folder("lamps.exr"), NULL, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("lamps.exr"), &back, 2, &err), &err);
     assert_int_equal(back->nparameters, LAMPS);
     for (int k = 0; k < LAMPS; k++) {
         assert_memory_equal(back->parameters[k].value, set->parameters[k].value, sizeof set->parameters[k].value);

@@ -150,22 +150,21 @@ static int make_specs(RetexTextureSpec specs[2], const Retexture *r)
     return count;
 }
 
-static RetexSamples *make_samples(const RetexSet *set, const Retexture *r)
+/* Lays the textures of a retexture on the set, and no others. */
+static void lay(RetexSet *set, const Retexture *r)
 {
     RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
-    RetexSamples *samples = NULL;
     RetexError err = {0};
     const int count = make_specs(specs, r);
-    if (count)
-        test_must(retex_sample(&samples, set, specs, count, 1, &err), &err);
-    return samples;
+    retex_set_lift(set, -1);
+    test_must(retex_sample(set, specs, count, 1, &err), &err);
 }
 
-static void expect_picture(const RetexSet *set, const RetexSamples *samples, const Retexture *r)
+static void expect_picture(const RetexSet *set, const Retexture *r)
 {
     RetexImage picture = {0};
     RetexError err = {0};
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     for (size_t i = 0; i < PIXELS; i++) {
         const float *got = picture.pixels + 3 * i;
         if (got[0] != r->red[i] || got[1] != 2 * r->half_green[i] || got[2] != 0)
@@ -180,9 +179,8 @@ static void test_by_hand(void **state)
     (void)state;
     RetexSet *set = make_set();
     for (int k = 0; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(set, &retextures[k]);
-        expect_picture(set, samples, &retextures[k]);
-        retex_samples_close(&samples);
+        lay(set, &retextures[k]);
+        expect_picture(set, &retextures[k]);
     }
     retex_set_close(&set);
 }
@@ -195,7 +193,7 @@ static void test_most_factors(void **state)
     RetexImage picture = {0};
     RetexError err = {0};
     add_term(set, 4096, RETEX_MAX_HITS, FLOOR_FIRST, FLOOR_LATER, LATER);
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     assert_true(picture.pixels[3] == 3.75f);
     assert_true(picture.pixels[6] == 6); /* 5 + 4096 / 2^12 */
     retex_image_free(&picture);
@@ -221,12 +219,12 @@ static void test_most_shares(void **state)
     assert_int_equal(retex_set_add_mixture(set, &mixture, NULL, &err), RETEX_ELIMIT);
     assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
     add_term(set, 16, 1, MIXTURE(index), 0, 0);
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     retex_set_close(&set);
-    test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
+    test_must(retex_set_read(path, &set, 1, &err), &err);
     assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
     assert_int_equal(set->mixtures[index].nshares, RETEX_SHARES_MAX);
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err);
     for (size_t i = 0; i < PIXELS; i++)
         assert_true(picture.pixels[3 * i] == retextures[0].red[i] + 7);
     retex_image_free(&picture);
@@ -240,7 +238,7 @@ static void test_no_error(void **state)
     RetexSet *set = make_set();
     for (int k = 1; k < RETEXTURES; k++) {
         RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
-        RetexImage error = test_error(set, NULL, specs, make_specs(specs, &retextures[k]), 1);
+        RetexImage error = test_error(set, specs, make_specs(specs, &retextures[k]), 1);
         for (size_t i = 0; i < 3 * PIXELS; i++)
             assert_true(error.pixels[i] == 0);
         retex_image_free(&error);
@@ -255,13 +253,12 @@ static void test_file(void **state)
     (void)state;
     RetexSet *set = make_set(), *back;
     RetexError err = {0};
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 1, &err), &err);
-    test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
+    test_must(retex_set_read(path, &back, 1, &err), &err);
     for (int k = 0; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(back, &retextures[k]);
-        expect_picture(back, samples, &retextures[k]);
-        retex_samples_close(&samples);
+        lay(back, &retextures[k]);
+        expect_picture(back, &retextures[k]);
     }
     retex_set_close(&set);
     retex_set_close(&back);
@@ -273,17 +270,15 @@ static void test_stream(void **state)
     (void)state;
     RetexSet *set = make_set();
     for (int k = 1; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(set, &retextures[k]), *samples_back;
         RetexSet *back;
         RetexError err = {0};
-        test_must(retex_set_write(set, samples, path, NULL, 0, &err), &err);
-        test_must(retex_set_read(path, &back, &samples_back, 1, &err), &err);
+        lay(set, &retextures[k]);
+        test_must(retex_set_write(set, path, NULL, 0, &err), &err);
+        test_must(retex_set_read(path, &back, 1, &err), &err);
         assert_true(back->nparts < set->nparts);
         assert_int_equal(back->footprints[FLOOR_LATER].albedo < 0, retextures[k].white_floor);
         assert_int_equal(back->footprints[WALL_LATER].albedo < 0, retextures[k].white_wall);
-        expect_picture(back, samples_back, &retextures[k]);
-        retex_samples_close(&samples);
-        retex_samples_close(&samples_back);
+        expect_picture(back, &retextures[k]);
         retex_set_close(&back);
     }
     retex_set_close(&set);
@@ -297,7 +292,7 @@ static void test_pack(void **state)
     RetexError err = {0};
     for (params.lossless = 0; params.lossless < 2; params.lossless++) {
         test_must(retex_pack_write(set, path, &params, NULL, 0, &err), &err);
-        test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
+        test_must(retex_set_read(path, &back, 1, &err), &err);
         assert_int_equal(back->nmixtures, 2);
         for (int m = 0; m < 2; m++) /* shares keep every bit, or stay within half a 64th of the largest */
             for (int i = 0; i < 2; i++) {
@@ -317,9 +312,8 @@ static void test_pack(void **state)
             assert_memory_equal(back->terms[i].factors, set->terms[i].factors, sizeof set->terms[i].factors);
         }
         for (int k = 0; k < RETEXTURES && params.lossless; k++) {
-            RetexSamples *samples = make_samples(back, &retextures[k]);
-            expect_picture(back, samples, &retextures[k]);
-            retex_samples_close(&samples);
+            lay(back, &retextures[k]);
+            expect_picture(back, &retextures[k]);
         }
         retex_set_close(&back);
     }
@@ -332,7 +326,7 @@ static void expect_failure(const RetexSet *set, const char *says)
 {
     RetexImage picture = {0};
     RetexError err = {0};
-    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), RETEX_EFORMAT);
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, 1, &err), RETEX_EFORMAT);
     if (!strstr(err.message, says))
         fail_msg("\"%s\"", err.message);
     assert_null(picture.pixels);
@@ -364,7 +358,7 @@ static void test_not_whole(void **state)
     for (int t = 2; t < set->nterms; t++)
         set->terms[t].nfactors = 0;
     RetexImage picture = {0};
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err); /* needs no mixture */
+    test_must(retex_combine(&picture, set, NULL, NULL, 1, &err), &err); /* needs no mixture */
     retex_image_free(&picture);
     const int factors[] = {MIXTURE(0), -INT_MAX, set->nfootprints, INT_MAX};
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {

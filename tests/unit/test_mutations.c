@@ -182,7 +182,7 @@ static void change_digits(const Whole *whole)
         *at = (unsigned char)('0' + (kept - '0' + 1 + digits % 9) % 10);
         if (pwrite(whole->descriptor, at, 1, at - bytes) != 1)
             abort();
-        const int code = retex_set_open(whole->path, &set, NULL, 1, &err);
+        const int code = retex_set_open(whole->path, &set, 1, &err);
         accepted += code != RETEX_EFORMAT && code != RETEX_EUNSUPPORTED;
         retex_set_close(&set);
         *at = kept;

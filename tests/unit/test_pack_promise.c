@@ -103,7 +103,7 @@ static double untried(const RetexSet *pack, const RetexSet *set, int pattern)
     test_must(retex_texture_create(&textures[0], &texels, NULL, 0, &err), &err);
     for (int i = 0; i < 2; i++) {
         test_must(retex_image_alloc(&images[i], WIDE, HIGH, 3, &err), &err);
-        test_must(retex_retexture(sets[i], NULL, textures, NULL, take_rows, &images[i], 1, &err), &err);
+        test_must(retex_retexture(sets[i], textures, NULL, take_rows, &images[i], 1, &err), &err);
     }
     test_must(retex_metrics(&metrics, &images[0], &images[1], 1, &err), &err);
     retex_texture_close(&textures[0]);
@@ -127,7 +127,7 @@ static RetexSet *packed(const RetexSet *set, int quality, int nthreads, size_t *
     close(file);
     params.quality = quality;
     test_must(retex_pack_write(set, path, &params, bytes, nthreads, &err), &err);
-    test_must(retex_set_open(path, &pack, NULL, 1, &err), &err);
+    test_must(retex_set_open(path, &pack, 1, &err), &err);
     unlink(path);
     return pack;
 }

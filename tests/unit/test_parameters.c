@@ -58,7 +58,7 @@ static RetexImage combined(const RetexSet *set, const float *lamp)
     RetexImage made = {0};
     RetexError err = {0};
     params.parameters = lamp;
-    test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+    test_must(retex_combine(&made, set, &params, NULL, 2, &err), &err);
     return made;
 }
 
@@ -165,7 +165,7 @@ static void what_is_no_value_is_refused(void **state)
         RetexImage made = {0};
         RetexError err = {0};
         params.parameters = wrong[k];
-        assert_int_equal(retex_combine(&made, set, NULL, &params, NULL, 1, &err), RETEX_EINVAL);
+        assert_int_equal(retex_combine(&made, set, &params, NULL, 1, &err), RETEX_EINVAL);
         assert_non_null(strstr(err.message, "Lamp"));
         retex_image_free(&made);
     }
@@ -184,9 +184,9 @@ static void files_and_packs_keep_it(void **state)
         RetexPackParams params = RETEX_PACK_INIT;
         params.lossless = lossy == 1;
         test_must(lossy ? retex_pack_write(set, path, &params, NULL, 2, &err)
-                        : retex_set_write(set, NULL, path, NULL, 2, &err),
+                        : retex_set_write(set, path, NULL, 2, &err),
                   &err);
-        test_must(retex_set_read(path, &back, NULL, 2, &err), &err);
+        test_must(retex_set_read(path, &back, 2, &err), &err);
         assert_int_equal(back->nparameters, 1);
         assert_string_equal(back->parameters[0].name, "Lamp");
         assert_int_equal(back->parameters[0].kind, RETEX_PARAMETER_COLOR);

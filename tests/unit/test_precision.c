@@ -404,22 +404,24 @@ static void a_band_store_and_threads_change_nothing(void **state)
 {
     (void)state;
     RetexSet *set = noisy_set("footprints", 1), *stored = noisy_set("footprints", 1);
+    RetexBandStore *store = NULL;
     RetexError err = {0};
     for (int k = 1; k < stored->nparts; k++) {
         RetexPart *part = &stored->parts[k];
         int image;
         part->type = set->parts[k].type = RETEX_FLOAT; /* so that nothing else rounds */
-        if (!stored->store)
-            test_must(retex_band_store_create(&stored->store, WIDTH, HEIGHT, 0, NULL, &err), &err);
-        test_must(retex_band_store_add(stored->store, part->name, part->letters, part->type, &image, &err), &err);
+        if (!store)
+            test_must(retex_band_store_create(&store, WIDTH, HEIGHT, 0, NULL, &err), &err);
+        test_must(retex_band_store_add(store, part->name, part->letters, part->type, &image, &err), &err);
         for (int y = 0; y < HEIGHT; y += RETEX_BAND_ROWS)
-            test_must(retex_band_store_put(stored->store, image, y / RETEX_BAND_ROWS,
+            test_must(retex_band_store_put(store, image, y / RETEX_BAND_ROWS,
                                            part->image.pixels + retex_image_index(&part->image, 0, y), &err),
                       &err);
         free(part->image.pixels);
         part->image.pixels = NULL;
-        part->store_image = 1 + image;
+        part->source_part = image;
     }
+    test_must(retex_set_take_store(stored, store, &err), &err);
     test_must(retex_set_round(set, NULL, 1, &err), &err);
     test_must(retex_set_round(stored, NULL, 3, &err), &err);
     test_must(retex_set_load(stored, 2, &err), &err);

@@ -306,8 +306,8 @@ static void threads_and_files_make_no_difference(void **state)
     (void)state;
     assert_true(file >= 0);
     close(file);
-    test_must(retex_set_write(set, NULL, path, NULL, 1, &err), &err);
-    test_must(retex_set_open(path, &opened, NULL, 1, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 1, &err), &err);
+    test_must(retex_set_open(path, &opened, 1, &err), &err);
     RetexSet *of[] = {reduced(set, 4, 1), reduced(set, 4, 3), reduced(opened, 4, 2)};
     for (int i = 1; i < 3; i++)
         for (int p = 0; p < of[0]->nparts; p++) {

@@ -7,7 +7,7 @@
 #include <string.h>
 #include "lib_stage.h"
 #include "light/sources.h"
-#include "set/samples.h"
+#include "set/laid.h"
 
 static void furnace_is_invisible(void **state)
 {

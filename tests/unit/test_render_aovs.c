@@ -6,7 +6,7 @@
 #include "lib_scene.h"
 #include "lib_stage.h"
 #include "light/sources.h"
-#include "set/samples.h"
+#include "set/laid.h"
 
 /* A crop has the pixels of the whole picture, in the beauty, the AOVs and what denoising reads. */
 static void crops_are_cut_from_the_whole(void **state)

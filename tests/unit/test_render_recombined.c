@@ -6,9 +6,9 @@
 #include <cmocka.h>
 #include <string.h>
 #include <retex/combine.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 #include "lib_stage.h"
-#include "set/samples.h"
+#include "set/laid.h"
 
 static void bits_do_not_depend_on_threads(void **state)
 {
@@ -61,14 +61,13 @@ static void check_recombining(int paper, int shiny)
     assert_true(set->folded == 0);
     compare(&plain->parts[0].image, &set->parts[0].image, 1e-5, "plain against set");
     RetexImage again = {0};
-    assert_int_equal(retex_combine(&again, set, NULL, NULL, NULL, 0, NULL), 0);
+    assert_int_equal(retex_combine(&again, set, NULL, NULL, 0, NULL), 0);
     compare(&again, &set->parts[0].image, paper ? 1e-4 : 1e-3, "unedited"); /* footprints: rounded on purpose */
     retex_image_free(&again);
     retex_set_close(&plain);
 
     RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
     RetexTexture *textures[2];
-    RetexSamples *samples = NULL;
     const float colors[2][3] = {{0.9f, 0.3f, 0.05f}, {0.1f, 0.05f, 0.8f}};
     RenderVariant replaced = {{NULL}, NULL};
     for (int k = 0; k < 2; k++) {
@@ -80,11 +79,10 @@ static void check_recombining(int paper, int shiny)
     }
     s.variant = &replaced;
     plain = stage_render(&s, 32, 1, 2);
-    assert_int_equal(retex_sample(&samples, set, specs, 2, 0, NULL), 0);
-    assert_int_equal(retex_combine(&again, set, samples, NULL, NULL, 0, NULL), 0);
+    assert_int_equal(retex_sample(set, specs, 2, 0, NULL), 0);
+    assert_int_equal(retex_combine(&again, set, NULL, NULL, 0, NULL), 0);
     compare(&again, &plain->parts[0].image, paper ? 2e-3 : 5e-3, "recoloured");
     retex_image_free(&again);
-    retex_samples_close(&samples);
     for (int k = 0; k < 2; k++)
         retex_texture_close(&textures[k]);
     retex_set_close(&plain);

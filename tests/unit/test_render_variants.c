@@ -5,7 +5,7 @@
 #include <cmocka.h>
 #include "path/path.h"
 #include "lib_stage.h"
-#include "set/samples.h"
+#include "set/laid.h"
 
 enum { BEYOND_A_WAVE = PATHS_MAX + 7 }; /* samples: some paths go side by side, the rest after them */
 

@@ -1,4 +1,4 @@
-/* Samples of sets that stay in their files: they are not kept in memory, and give the same files as from memory. */
+/* Textures laid on sets that stay in their files: little is kept in memory, and files are the same as from memory. */
 #include "lib_folder.h"
 #include "lib_test.h"
 
@@ -68,22 +68,28 @@ static int is_large(const RetexImage *image)
 }
 
 /* Whether no image of the picture's size is there. */
-static int is_out_of_memory(const RetexSet *set, const RetexSamples *samples)
+static int is_out_of_memory(const RetexSet *set)
 {
     int count = 0;
-    for (int i = 0; set && i < set->nparts; i++)
+    for (int i = 0; i < set->nparts; i++)
         count += is_large(&set->parts[i].image) && set->parts[i].image.pixels;
-    for (int i = 0; samples && i < samples->nimages; i++)
-        count += is_large(&samples->images[i]) && samples->images[i].pixels;
     return !count;
 }
 
-static void write_to(RetexSet *set, const RetexSamples *samples, const char *path, int compress)
+static void write_to(RetexSet *set, const char *path, int compress)
 {
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexError err = {0};
     store.compress = compress;
-    test_must(retex_set_write(set, samples, path, &store, 0, &err), &err);
+    test_must(retex_set_write(set, path, &store, 0, &err), &err);
+}
+
+static void write_samples_to(const RetexSet *set, const char *path, int compress)
+{
+    RetexStoreParams store = RETEX_STORE_INIT;
+    RetexError err = {0};
+    store.compress = compress;
+    test_must(retex_set_write_samples(set, path, &store, 0, &err), &err);
 }
 
 /* Files of samples and of streams, whichever way the band store keeps its bands. */
@@ -92,46 +98,35 @@ static void files_are_those_from_memory(void **state)
     (void)state;
     RetexSet *set = make_set(), *open;
     RetexTextureSpec spec = make_spec("Floor");
-    RetexSamples *samples, *stored;
     RetexError err = {0};
-    write_to(set, NULL, test_in_folder("set.exr"), 1);
+    write_to(set, test_in_folder("set.exr"), 1);
     retex_set_close(&set);
-    test_must(retex_set_read(test_in_folder("set.exr"), &set, NULL, 2, &err), &err);
-    test_must(retex_sample(&samples, set, &spec, 1, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("set.exr"), &set, 2, &err), &err);
+    test_must(retex_sample(set, &spec, 1, 2, &err), &err);
     for (int round = 0; round < 4; round++) {
         const int compress = round & 1, plain = round >> 1;
-        test_must(retex_set_open(test_in_folder("set.exr"), &open, NULL, 2, &err), &err);
-        test_must(test_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
-        assert_true(is_out_of_memory(open, stored));
-        write_to(NULL, samples, test_in_folder("a.exr"), compress);
-        write_to(NULL, stored, test_in_folder("b.exr"), compress);
+        test_must(retex_set_open(test_in_folder("set.exr"), &open, 2, &err), &err);
+        test_must(test_sample_to_store(open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
+        assert_true(is_out_of_memory(open));
+        write_samples_to(set, test_in_folder("a.exr"), compress);
+        write_samples_to(open, test_in_folder("b.exr"), compress);
         if (!plain || !compress) /* a band store that is not compressed is not for a file that is */
             expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
-        write_to(set, samples, test_in_folder("a.exr"), compress);
-        write_to(open, stored, test_in_folder("b.exr"), compress);
+        write_to(set, test_in_folder("a.exr"), compress);
+        write_to(open, test_in_folder("b.exr"), compress);
         if (!plain || !compress)
             expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
-        assert_true(is_out_of_memory(open, stored));
-        test_must(retex_samples_load(stored, 2, &err), &err);
-        for (int i = 0; i < samples->nimages; i++) {
-            const RetexImage *a = &samples->images[i], *b = &stored->images[i];
-            assert_int_equal(retex_samples_have(samples, i), retex_samples_have(stored, i));
-            if (a->pixels)
+        assert_true(is_out_of_memory(open));
+        test_must(retex_set_load(open, 2, &err), &err);
+        for (int f = 0; f < set->nfootprints; f++) {
+            const RetexImage *a = test_laid(set, f), *b = test_laid(open, f);
+            assert_int_equal(a != NULL, b != NULL);
+            if (a)
                 assert_memory_equal(a->pixels, b->pixels, sizeof(float) * retex_image_index(a, 0, a->height));
         }
-        retex_samples_close(&stored);
         retex_set_close(&open);
     }
-    retex_samples_close(&samples);
     retex_set_close(&set);
-}
-
-static void open_stream(RetexSet **set, RetexSamples **samples, const char *path)
-{
-    RetexError err = {0};
-    test_must(retex_set_open(path, set, samples, 2, &err), &err);
-    for (int i = 0; i < (*samples)->nimages; i++)
-        assert_null((*samples)->images[i].pixels);
 }
 
 /* A stream stays in its file: pictures, and streams with one more target, are those of one in memory. */
@@ -140,44 +135,33 @@ static void streams_stay_in_their_files(void **state)
     (void)state;
     RetexSet *set = make_set(), *open;
     RetexTextureSpec floor = make_spec("Floor"), wall = make_spec("Wall");
-    RetexSamples *samples, *more, *stored;
     RetexImage picture = {0}, other = {0};
     RetexError err = {0};
-    test_must(retex_sample(&samples, set, &floor, 1, 2, &err), &err);
-    write_to(set, samples, test_in_folder("stream.exr"), 0);
-    retex_samples_close(&samples);
+    test_must(retex_sample(set, &floor, 1, 2, &err), &err);
+    write_to(set, test_in_folder("stream.exr"), 0);
     retex_set_close(&set);
 
-    test_must(retex_set_read(test_in_folder("stream.exr"), &set, &samples, 2, &err), &err);
-    open_stream(&open, &stored, test_in_folder("stream.exr"));
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
-    test_must(retex_combine(&other, open, stored, NULL, NULL, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("stream.exr"), &set, 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("stream.exr"), &open, 2, &err), &err);
+    assert_true(retex_set_has_laid(open) && is_out_of_memory(open));
+    test_must(retex_combine(&picture, set, NULL, NULL, 2, &err), &err);
+    test_must(retex_combine(&other, open, NULL, NULL, 2, &err), &err);
     assert_memory_equal(picture.pixels, other.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
 
-    test_must(retex_sample(&more, set, &wall, 1, 2, &err), &err);
-    test_must(retex_samples_merge(samples, more, 0, &err), &err);
-    write_to(set, samples, test_in_folder("a.exr"), 0);
-    retex_samples_close(&more);
-    test_must(test_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
-    test_must(retex_samples_merge(stored, more, 0, &err), &err);
-    retex_samples_close(&more);
-    write_to(open, stored, test_in_folder("b.exr"), 0);
-    expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
-
-    /* a second band store has no place beside the first: its images are loaded */
-    test_must(test_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
-    test_must(retex_samples_merge(stored, more, 0, &err), &err);
-    retex_samples_close(&more);
-    write_to(open, stored, test_in_folder("b.exr"), 0);
-    expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
-
-    retex_set_close(&open); /* the file is held by the samples too */
-    test_must(retex_samples_load(stored, 2, &err), &err);
-    assert_true(!stored->store && !stored->source);
+    test_must(retex_sample(set, &wall, 1, 2, &err), &err);
+    write_to(set, test_in_folder("a.exr"), 0);
+    for (int again = 0; again < 2; again++) { /* a second texture takes the place of the first, and its band store */
+        test_must(test_sample_to_store(open, &wall, 1, "-", 2, &err), &err);
+        assert_true(is_out_of_memory(open));
+        write_to(open, test_in_folder("b.exr"), 0);
+        expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+    }
+    test_must(retex_set_load(open, 2, &err), &err);
+    for (int i = 0; i < open->nparts; i++)
+        assert_null(open->parts[i].source);
     retex_image_free(&picture);
     retex_image_free(&other);
-    retex_samples_close(&samples);
-    retex_samples_close(&stored);
+    retex_set_close(&open);
     retex_set_close(&set);
 }
 
@@ -185,52 +169,51 @@ static void streams_stay_in_their_files(void **state)
 static void samples_alone_stay_in_their_file(void **state)
 {
     (void)state;
-    RetexSet *set = make_set();
+    RetexSet *set = make_set(), *stored;
     RetexTextureSpec spec = make_spec("Floor");
-    RetexSamples *samples, *stored;
     RetexImage picture = {0}, other = {0};
     RetexError err = {0};
-    test_must(retex_sample(&samples, set, &spec, 1, 2, &err), &err);
-    write_to(NULL, samples, test_in_folder("a.exr"), 1);
-    test_must(retex_set_open(test_in_folder("a.exr"), NULL, &stored, 2, &err), &err);
-    assert_true(is_out_of_memory(NULL, stored));
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
-    test_must(retex_combine(&other, set, stored, NULL, NULL, 2, &err), &err);
+    test_must(retex_sample(set, &spec, 1, 2, &err), &err);
+    write_samples_to(set, test_in_folder("a.exr"), 1);
+    test_must(retex_combine(&picture, set, NULL, NULL, 2, &err), &err);
+    retex_set_lift(set, -1);
+    test_must(retex_set_open_any(test_in_folder("a.exr"), &stored, 2, &err), &err);
+    assert_true(is_out_of_memory(stored));
+    assert_int_equal(retex_combine(&other, stored, NULL, NULL, 2, &err), RETEX_EINVAL); /* they are no set */
+    test_must(retex_set_lay(set, stored, &err), &err);
+    retex_set_close(&stored); /* the file is held by the set too */
+    test_must(retex_combine(&other, set, NULL, NULL, 2, &err), &err);
     assert_memory_equal(picture.pixels, other.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
-    write_to(NULL, stored, test_in_folder("b.exr"), 1);
+    write_samples_to(set, test_in_folder("b.exr"), 1);
     expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
     retex_image_free(&picture);
     retex_image_free(&other);
-    retex_samples_close(&samples);
-    retex_samples_close(&stored);
     retex_set_close(&set);
 }
 
 /* Of two textures for one target the one that came later counts, and samples of other targets stay. */
-static void later_samples_win(void **state)
+static void later_textures_win(void **state)
 {
     (void)state;
-    RetexSet *set = make_set();
+    RetexSet *set = make_set(), *both = make_set();
     RetexTextureSpec specs[3] = {make_spec("Floor"), make_spec("Wall"), make_spec("Wall")};
-    RetexSamples *samples, *more, *both;
     RetexImage merged = {0}, direct = {0};
     RetexError err = {0};
     specs[2].constant = 1, specs[2].color[1] = 0.75f;
-    test_must(retex_sample(&samples, set, specs, 2, 2, &err), &err);
-    test_must(retex_sample(&more, set, &specs[2], 1, 2, &err), &err);
-    test_must(retex_samples_merge(samples, more, 2, &err), &err);
+    test_must(retex_sample(set, specs, 2, 2, &err), &err);
+    test_must(retex_sample(set, &specs[2], 1, 2, &err), &err);
     specs[1] = specs[2];
-    test_must(retex_sample(&both, set, specs, 2, 2, &err), &err);
-    test_must(retex_combine(&merged, set, samples, NULL, NULL, 2, &err), &err);
-    test_must(retex_combine(&direct, set, both, NULL, NULL, 2, &err), &err);
+    for (int again = 0; again < 2; again++) /* all at once, where each has one already */
+        test_must(retex_sample(both, specs, 2, 2, &err), &err);
+    assert_int_equal(set->nparts, both->nparts);
+    test_must(retex_combine(&merged, set, NULL, NULL, 2, &err), &err);
+    test_must(retex_combine(&direct, both, NULL, NULL, 2, &err), &err);
     assert_memory_equal(merged.pixels, direct.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
     for (int t = 0; t < set->ntargets; t++)
-        assert_string_equal(samples->textures[t], both->textures[t]);
+        assert_string_equal(set->targets[t].texture, both->targets[t].texture);
     retex_image_free(&merged);
     retex_image_free(&direct);
-    retex_samples_close(&more);
-    retex_samples_close(&both);
-    retex_samples_close(&samples);
+    retex_set_close(&both);
     retex_set_close(&set);
 }
 
@@ -238,7 +221,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_those_from_memory),
-        cmocka_unit_test(later_samples_win),
+        cmocka_unit_test(later_textures_win),
         cmocka_unit_test(streams_stay_in_their_files),
         cmocka_unit_test(samples_alone_stay_in_their_file),
     };

@@ -123,15 +123,15 @@ static const RetexImage *part(const RetexSet *set, const char *name)
 }
 
 /* Image of a footprint: what was sampled, or the original albedo. */
-static const RetexImage *factor(const RetexSet *set, const RetexSamples *samples, int footprint)
+static const RetexImage *factor(const RetexSet *set, int footprint)
 {
-    return samples && samples->images[footprint].pixels ? &samples->images[footprint]
-                                                        : &set->parts[set->footprints[footprint].albedo].image;
+    const RetexImage *sampled = test_laid(set, footprint);
+    return sampled ? sampled : &set->parts[set->footprints[footprint].albedo].image;
 }
 
-static RetexImage mixed(const RetexSet *set, const RetexSamples *samples)
+static RetexImage mixed(const RetexSet *set)
 {
-    const RetexImage *b1 = factor(set, samples, BROAD1), *b2 = factor(set, samples, BROAD2);
+    const RetexImage *b1 = factor(set, BROAD1), *b2 = factor(set, BROAD2);
     const RetexImage *w1 = part(set, "weight1"), *w2 = part(set, "weight2");
     RetexImage mix = {0};
     test_must(retex_image_alloc(&mix, b1->width, b1->height, 3, NULL), NULL);
@@ -158,10 +158,10 @@ static RetexImage multiplied(const RetexImage *a, int scale_a, const RetexImage 
     return product;
 }
 
-static void expect_formula(const RetexSet *set, const RetexSamples *samples, const RetexImage *picture)
+static void expect_formula(const RetexSet *set, const RetexImage *picture)
 {
-    RetexImage mix = mixed(set, samples);
-    const RetexImage *sharp = factor(set, samples, SHARP), *later = factor(set, samples, LATER);
+    RetexImage mix = mixed(set);
+    const RetexImage *sharp = factor(set, SHARP), *later = factor(set, LATER);
     RetexImage gl = multiplied(part(set, "g"), GAIN_SCALE, later, LATER_SCALE);
     RetexImage ml = multiplied(&mix, BROAD_SCALE, later, LATER_SCALE);
     for (int y = 0; y < HEIGHT; y++)
@@ -200,17 +200,15 @@ static void test_formula(void **state)
     RetexSet *set = make_set();
     RetexImage picture = {0};
     RetexError err = {0};
-    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), &err);
-    expect_formula(set, NULL, &picture);
+    test_must(retex_combine(&picture, set, NULL, NULL, 0, &err), &err);
+    expect_formula(set, &picture);
     retex_image_free(&picture);
     RetexTextureSpec spec = stripes();
-    RetexSamples *samples;
-    test_must(retex_sample(&samples, set, &spec, 1, 0, &err), &err);
-    assert_int_equal(samples->images[BROAD1].width, (WIDTH + BROAD_SCALE - 1) / BROAD_SCALE);
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 0, &err), &err);
-    expect_formula(set, samples, &picture);
+    test_must(retex_sample(set, &spec, 1, 0, &err), &err);
+    assert_int_equal(test_laid(set, BROAD1)->width, (WIDTH + BROAD_SCALE - 1) / BROAD_SCALE);
+    test_must(retex_combine(&picture, set, NULL, NULL, 0, &err), &err);
+    expect_formula(set, &picture);
     retex_image_free(&picture);
-    retex_samples_close(&samples);
     retex_set_close(&set);
     unlink(spec.image);
 }
@@ -229,22 +227,22 @@ static int keep_rows(void *context, int y0, int y1, const float *rows, RetexErro
 static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
 {
     RetexSet *set;
-    RetexSamples *samples;
     RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexImage other = {0};
     RetexError err = {0};
-    test_must(retex_set_read("scale.exr", &set, NULL, 0, &err), &err);
+    test_must(retex_set_read("scale.exr", &set, 0, &err), &err);
     for (int compress = 0; compress < 2; compress++) {
         RetexStoreParams store = RETEX_STORE_INIT;
         RetexSet *open;
         store.compress = compress;
-        test_must(retex_set_write(set, NULL, "open.exr", &store, 0, &err), &err);
-        test_must(retex_set_open("open.exr", &open, NULL, 0, &err), &err);
+        test_must(retex_set_write(set, "open.exr", &store, 0, &err), &err);
+        test_must(retex_set_open("open.exr", &open, 0, &err), &err);
         assert_null(open->parts[3].image.pixels);
         test_must(retex_textures_load(textures, open, spec, 1, 0, &err), &err);
-        assert_int_equal(retex_sample(&samples, open, spec, 1, 0, &err), RETEX_EINVAL);
+        assert_int_equal(retex_sample(open, spec, 1, 0, &err), RETEX_EINVAL);
+        assert_int_equal(open->nparts, set->nparts);
         test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
-        test_must(retex_retexture(open, NULL, textures, NULL, keep_rows, &other, 0, &err), &err);
+        test_must(retex_retexture(open, textures, NULL, keep_rows, &other, 0, &err), &err);
         assert_memory_equal(other.pixels, picture->pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
         retex_image_free(&other);
         retex_textures_close(textures);
@@ -287,13 +285,13 @@ static void expect_rows(const RetexSet *set, RetexTexture *const *textures, cons
         const size_t first = retex_image_index(picture, 0, some.y0),
                      floats = retex_image_index(picture, 0, some.y1) - first;
         test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
-        test_must(retex_retexture(set, NULL, textures, &params, keep_some, &some, 1, &err), &err);
+        test_must(retex_retexture(set, textures, &params, keep_some, &some, 1, &err), &err);
         assert_int_equal(some.count, some.y1 - some.y0);
         assert_memory_equal(other.pixels + first, picture->pixels + first, floats * sizeof(float));
         params.x0 = (int)(3 * i);
         params.x1 = WIDTH - (int)i;
         memset(other.pixels, 1, sizeof(float) * 3 * WIDTH * HEIGHT);
-        test_must(retex_retexture(set, NULL, textures, &params, keep_some, &some, 2, &err), &err);
+        test_must(retex_retexture(set, textures, &params, keep_some, &some, 2, &err), &err);
         for (int y = params.y0; y < params.y1; y++) {
             const size_t at = retex_image_index(picture, params.x0, y);
             assert_memory_equal(other.pixels + at, picture->pixels + at,
@@ -307,40 +305,49 @@ static void expect_rows(const RetexSet *set, RetexTexture *const *textures, cons
 static void test_doors(void **state)
 {
     (void)state;
-    RetexSet *set = make_set(), *back;
-    RetexSamples *samples, *again;
+    RetexSet *set = make_set(), *back, *samples;
     RetexTextureSpec spec = stripes();
     RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexImage picture = {0}, other = {0};
     RetexError err = {0};
     const size_t bytes = sizeof(float) * 3 * WIDTH * HEIGHT;
     retex_set_identify(set);
-    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
-    test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
+    test_combine(&picture, set, &spec, 1, NULL);
     test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
     test_must(retex_textures_load(textures, set, &spec, 1, 0, &err), &err);
     for (int threads = 1; threads < 4; threads++) {
         memset(other.pixels, 0, bytes);
-        test_must(retex_retexture(set, NULL, textures, NULL, keep_rows, &other, threads, &err), &err);
+        test_must(retex_retexture(set, textures, NULL, keep_rows, &other, threads, &err), &err);
         assert_memory_equal(other.pixels, picture.pixels, bytes);
     }
     expect_rows(set, textures, &picture);
     retex_textures_close(textures);
+    test_must(retex_sample(set, &spec, 1, 1, &err), &err);
     for (int stream = 0; stream < 2; stream++) {
-        test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, 0, &err), &err);
-        test_must(retex_set_read("scale.exr", &back, &again, 0, &err), &err);
+        if (!stream) {
+            test_must(retex_set_write_samples(set, "samples.exr", NULL, 0, &err), &err);
+            retex_set_lift(set, -1);
+        }
+        test_must(retex_set_write(set, "scale.exr", NULL, 0, &err), &err);
+        test_must(retex_set_read("scale.exr", &back, 0, &err), &err);
+        if (!stream) {
+            test_must(retex_set_open_any("samples.exr", &samples, 0, &err), &err);
+            test_must(retex_set_lay(back, samples, &err), &err);
+            retex_set_close(&samples);
+            test_must(retex_sample(set, &spec, 1, 1, &err), &err);
+        }
         retex_image_free(&other);
-        test_must(retex_combine(&other, back, stream ? again : samples, NULL, NULL, 0, &err), &err);
+        test_must(retex_combine(&other, back, NULL, NULL, 0, &err), &err);
         assert_memory_equal(other.pixels, picture.pixels, bytes);
         assert_true(retex_term_image(&back->terms[2]) > 0 && retex_term_image(&back->terms[0]) < 0);
         retex_set_close(&back);
-        retex_samples_close(&again);
     }
-    test_must(retex_set_write(set, NULL, "scale.exr", NULL, 0, &err), &err);
+    unlink("samples.exr");
+    retex_set_lift(set, -1);
+    test_must(retex_set_write(set, "scale.exr", NULL, 0, &err), &err);
     expect_open(&spec, &picture);
     retex_image_free(&other);
     retex_image_free(&picture);
-    retex_samples_close(&samples);
     retex_set_close(&set);
     unlink("scale.exr");
     unlink(spec.image);
@@ -355,7 +362,7 @@ static void test_estimate(void **state)
     strcpy(specs[1].target, "Floor");
     specs[1].constant = 1;
     for (int k = 0; k < 2; k++) {
-        RetexImage error = test_error(set, NULL, &specs[k], 1, 0);
+        RetexImage error = test_error(set, &specs[k], 1, 0);
         double sum = 0;
         for (size_t i = 0; i < 3 * WIDTH * HEIGHT; i++)
             sum += (double)error.pixels[i];
@@ -375,12 +382,12 @@ static void test_what_cannot_be(void **state)
     RetexImage picture = {0};
     RetexImage *weight = &set->parts[set->mixtures[0].shares[1].weight].image;
     weight->width--;
-    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, 0, &err), RETEX_EFORMAT);
     assert_non_null(strstr(err.message, "mixture"));
     weight->width++;
     RetexImage *gain = &set->parts[retex_term_image(&set->terms[2])].image;
     gain->height--;
-    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, 0, &err), RETEX_EFORMAT);
     gain->height++;
     RetexTerm term = set->terms[2];
     term.factors[2].index = set->nparts;

@@ -260,7 +260,7 @@ static void write_set(const char *path, int width, uint32_t seed)
     RetexTerm last = set->terms[--set->nterms];
     last.target = 1; /* corrects the second target */
     test_must(retex_set_add_correction(set, &last, NULL, &err), &err);
-    test_must(retex_set_write(set, NULL, path, NULL, 1, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 1, &err), &err);
     retex_set_close(&set);
 }
 

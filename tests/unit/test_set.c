@@ -8,6 +8,10 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <retex/denoise.h>
+#include <retex/pack.h>
+#include <retex/reduce.h>
+#include <retex/web.h>
 
 #include "base/half.h"
 
@@ -18,7 +22,6 @@ static void test_set_there_and_back(void **state)
     (void)state;
     for (int compress = 0; compress < 2; compress++) {
         RetexSet *set = test_set(70, 45, 9), *back;
-        RetexSamples *none;
         RetexStoreParams params = RETEX_STORE_INIT;
         RetexError err = {0};
         params.compress = compress;
@@ -28,18 +31,16 @@ static void test_set_there_and_back(void **state)
         set->folded = 1.0 / 3;
         strcpy(set->scene, "k\xc3\xbc"
                            "che.pov");
-        test_must(retex_set_write(set, NULL, path, &params, 3, &err), &err);
+        test_must(retex_set_write(set, path, &params, 3, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
-        test_must(retex_set_read(path, &back, &none, 2, &err), &err);
-        assert_null(none);
+        test_must(retex_set_read(path, &back, 2, &err), &err);
+        assert_false(retex_set_info(back).is_samples || retex_set_has_laid(back));
         expect_equal_sets(set, back);
         /* what was read can be added to and written again */
         test_must(retex_set_add_part(back, "more", "A", RETEX_FLOAT, 0, 0, NULL, &err), &err);
         test_must(retex_set_add_part(back, "and-more", "A", RETEX_FLOAT, 3, 2, NULL, &err), &err);
-        test_must(retex_set_write(back, NULL, path, &params, 3, &err), &err);
+        test_must(retex_set_write(back, path, &params, 3, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
-        assert_int_equal(retex_set_read(path, NULL, &none, 2, &err), RETEX_EFORMAT);
-        assert_non_null(strstr(err.message, "holds a set, no samples"));
         retex_set_close(&set);
         retex_set_close(&back);
         retex_set_close(&back);
@@ -60,9 +61,9 @@ static void test_footprints_there_and_back(void **state)
     test_must(retex_set_add_part(set, "axes", "RGBA", RETEX_HALF, 0, 0, &quarter.spread, &err), &err);
     for (quarter.quadrant = 1; quarter.quadrant <= RETEX_QUADRANTS; quarter.quadrant++)
         test_must(retex_set_add_footprint(set, &quarter, NULL, &err), &err);
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 0, &err), &err);
-    test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, &back, 0, &err), &err);
     expect_equal_sets(set, back);
     retex_set_close(&set);
     retex_set_close(&back);
@@ -71,32 +72,43 @@ static void test_footprints_there_and_back(void **state)
 static void test_samples_there_and_back(void **state)
 {
     (void)state;
-    RetexSet *set = test_set(40, 30, 2), *none;
+    RetexSet *set = test_set(40, 30, 2), *none, *back, *again;
     RetexError err = {0};
     for (int every = 0; every < 3; every++) {
-        RetexSamples *samples = make_samples(set, every), *back;
-        test_must(retex_samples_check(samples, set, &err), &err);
-        test_must(retex_set_write(NULL, samples, path, NULL, 0, &err), &err);
+        const int nparts = set->nparts;
+        lay_random(set, every);
+        test_must(retex_set_write_samples(set, path, NULL, 0, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
-        test_must(retex_set_read(path, &none, &back, 0, &err), &err);
+        test_must(retex_set_open_any(path, &back, 0, &err), &err);
+        assert_true(retex_set_info(back).is_samples);
+        assert_int_equal(back->nparts, set->nparts - nparts);
+        test_must(retex_set_write(back, path, NULL, 0, &err), &err); /* and written again they are the same */
+        test_must(retex_set_open_any(path, &again, 0, &err), &err);
+        test_must(retex_set_load(back, 0, &err), &err);
+        test_must(retex_set_load(again, 0, &err), &err);
+        expect_equal_laid(set, back);
+        expect_equal_laid(set, again);
+        assert_int_equal(retex_set_read(path, &none, 0, &err), RETEX_EFORMAT);
+        assert_non_null(strstr(err.message, "holds samples, no set"));
         assert_null(none);
-        expect_equal_samples(samples, back);
-        assert_int_equal(retex_set_read(path, &none, NULL, 0, &err), RETEX_EFORMAT);
-        retex_samples_close(&samples);
-        retex_samples_close(&back);
-        retex_samples_close(&back);
+        test_must(retex_set_lay(set, back, &err), &err);
+        expect_equal_laid(set, again);
+        retex_set_lift(set, -1);
+        assert_int_equal(set->nparts, nparts);
+        retex_set_close(&back);
+        retex_set_close(&again);
     }
     retex_set_close(&set);
 }
 
-static void expect_stream(const RetexSet *set, const RetexSamples *samples, const RetexSet *back)
+static void expect_stream(const RetexSet *set, const RetexSet *back)
 {
     expect_equal_terms(set, back);
     expect_equal_mixtures(set, back);
     expect_equal_part(set, 0, back, 0);
     assert_int_equal(back->nfootprints, set->nfootprints);
     for (int i = 0; i < set->nfootprints; i++) {
-        if (samples->images[i].pixels) {
+        if (set->footprints[i].sampled) {
             assert_int_equal(back->footprints[i].uv, -1);
             continue;
         }
@@ -115,36 +127,33 @@ static void test_stream_through_a_pipe(void **state)
     RetexSet *set = test_set(90, 60, 4), *back;
     test_make_footprints(set);
     test_add_denoise_data(set);
-    RetexSamples *samples = make_samples(set, 2), *samples_back;
+    lay_random(set, 2);
     RetexError err = {0};
     int ends[2], status = 1;
     /* checksums of all parts, to compare with */
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err);
     assert_int_equal(pipe(ends), 0);
     const pid_t child = fork();
     if (child == 0) {
         dup2(ends[1], 1);
         close(ends[0]);
         close(ends[1]);
-        _exit(retex_set_write(set, samples, "-", NULL, 0, &err) != 0);
+        _exit(retex_set_write(set, "-", NULL, 0, &err) != 0);
     }
     const int kept = dup(0);
     dup2(ends[0], 0);
     close(ends[0]);
     close(ends[1]);
-    const int code = retex_set_read("-", &back, &samples_back, 0, &err);
+    const int code = retex_set_read("-", &back, 0, &err);
     dup2(kept, 0);
     close(kept);
     waitpid(child, &status, 0);
     test_must(code, &err);
     assert_int_equal(status, 0);
-    expect_stream(set, samples, back);
-    expect_equal_samples(samples, samples_back);
-    test_must(retex_samples_check(samples_back, back, &err), &err);
+    expect_stream(set, back);
+    expect_equal_laid(set, back);
     retex_set_close(&set);
     retex_set_close(&back);
-    retex_samples_close(&samples);
-    retex_samples_close(&samples_back);
 }
 
 /* Each with one mistake; the first has none. */
@@ -231,37 +240,64 @@ static void wrong_mixtures_are_not_written(void **state)
             wrong->nshares = 0;
         if (i == 6)
             wrong->nshares = RETEX_SHARES_MAX + 1;
-        if (retex_set_write(set, NULL, path, NULL, 0, &err) != (i ? RETEX_EINVAL : RETEX_OK))
+        if (retex_set_write(set, path, NULL, 0, &err) != (i ? RETEX_EINVAL : RETEX_OK))
             fail_msg("mixture %d: %s", i, err.message);
     }
     set->mixtures[0] = right;
     retex_set_close(&set);
 }
 
-/* Of a footprint and its finish, or of a gate; those that have no size are none. */
-static void images_of_finishes_are_found(void **state)
+/* Colours of a footprint, these with a finish, and gates are parts of their own, and go when the texture is lifted; one
+ * target keeps its own then. Two targets have one name but for letters that names of parts do not have. */
+static void textures_are_lifted_by_target(void **state)
 {
     (void)state;
-    static const RetexSampleFootprint images[] = {
-        {0, 1, 0, 1}, {0, 2, 1, 1}, {0, 1, 0, 2}, {1, 1, 0, 1}, {1, 0, -1, -1}};
-    enum { OWN = 2, COUNT = sizeof images / sizeof *images };
-    RetexSamples *samples;
+    static const int places[][3] = {{0, 0, -1}, {0, 0, 0}, {0, 0, 1}, {0, -1, -1}, {1, -1, -1}};
+    RetexSet *set = test_set(16, 16, 1);
     RetexError err = {0};
-    test_must(retex_samples_alloc(&samples, OWN, &err), &err);
-    samples->width = samples->height = 4;
-    for (int i = 0; i < COUNT; i++) {
-        test_must(retex_samples_add(samples, images[i], &err), &err);
-        test_must(retex_image_alloc(&samples->images[OWN + i], 4, 4, 3, &err), &err);
-    }
-    for (int i = 0; i < COUNT; i++)
-        assert_int_equal(
-            retex_samples_find(samples, images[i].target, images[i].footprint, images[i].finish), OWN + i);
-    assert_int_equal(retex_samples_find(samples, 1, 1, 1), -1);
-    assert_int_equal(retex_samples_find(samples, 0, 0, -1), -1); /* a footprint's colour is not among them */
-    assert_int_equal(retex_samples_find(samples, 0, -1, -1), -1);
-    retex_image_free(&samples->images[OWN]);
-    assert_int_equal(retex_samples_find(samples, 0, 0, 1), -1);
-    retex_samples_close(&samples);
+    const int nparts = set->nparts;
+    int parts[5];
+    strcpy(set->targets[0].name, "a b");
+    strcpy(set->targets[1].name, "a.b");
+    assert_int_equal(set->footprints[0].target, 0);
+    for (int i = 0; i < 5; i++)
+        test_must(retex_set_add_laid(set, places[i][0], places[i][1], places[i][2], &parts[i], &err), &err);
+    assert_int_equal(set->footprints[0].sampled, 1 + parts[0]);
+    assert_int_equal(set->footprints[0].finished[0], 1 + parts[1]);
+    assert_int_equal(set->footprints[0].finished[1], 1 + parts[2]);
+    assert_int_equal(set->targets[0].gates, 1 + parts[3]);
+    assert_int_equal(set->targets[1].gates, 1 + parts[4]);
+    assert_string_equal(set->parts[parts[3]].name, "sample_a_b_gate_1");
+    assert_string_equal(set->parts[parts[4]].name, "sample_a_b_gate_1_2");
+    retex_set_lift(set, 0);
+    assert_int_equal(set->nparts, nparts + 1);
+    assert_int_equal(set->footprints[0].sampled, 0);
+    assert_int_equal(set->footprints[0].finished[1], 0);
+    assert_int_equal(set->targets[0].gates, 0);
+    assert_int_equal(set->targets[1].gates, 1 + nparts);
+    retex_set_lift(set, -1);
+    assert_int_equal(set->nparts, nparts);
+    retex_set_close(&set);
+}
+
+/* A pack, a smaller set, a page and a denoised set would lose what is laid on a set. */
+static void sets_with_textures_are_not_packed(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1), *smaller = NULL;
+    RetexError err = {0};
+    test_make_footprints(set);
+    test_add_denoise_data(set);
+    lay_random(set, 1);
+    assert_int_equal(retex_pack_write(set, path, NULL, NULL, 0, &err), RETEX_EINVAL);
+    assert_non_null(strstr(err.message, "a texture is laid on"));
+    assert_int_equal(retex_set_reduce(&smaller, set, 2, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_web_write(set, path, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_denoise(set, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_non_null(strstr(err.message, "a texture is laid on"));
+    retex_set_lift(set, -1);
+    test_must(retex_pack_write(set, path, NULL, NULL, 0, &err), &err);
+    retex_set_close(&set);
 }
 
 /* Finishes are numbered from 1, and 0 is none, in targets as in parameters. */
@@ -373,9 +409,9 @@ static void test_references_follow_when_parts_go(void **state)
         assert_memory_equal(before, after, sizeof before);
     }
     assert_int_equal(set->targets[1].original, retex_set_find_part(set, "last"));
-    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err); /* and it is a set that can be read */
+    test_must(retex_set_write(set, path, NULL, 0, &err), &err); /* and it is a set that can be read */
     retex_set_close(&set);
-    test_must(retex_set_read(path, &set, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, &set, 0, &err), &err);
     assert_int_equal(list_references(set, after), count);
     assert_memory_equal(before, after, sizeof before);
     retex_set_close(&set);
@@ -384,26 +420,34 @@ static void test_references_follow_when_parts_go(void **state)
 static void test_samples_of_another_set(void **state)
 {
     (void)state;
-    RetexSet *set = test_set(16, 16, 1), *other = test_set(16, 17, 1);
-    RetexSamples *samples = make_samples(set, 1);
+    RetexSet *set = test_set(16, 16, 1), *from = test_set(16, 17, 1);
     RetexError err = {0};
-    assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
-    retex_set_close(&other);
-    other = test_set(16, 16, 1); /* the same shape, but another render */
-    samples->set_id = 7, other->id = 8;
-    assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
+    lay_random(from, 1);
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
+    retex_set_close(&from);
+    from = test_set(16, 16, 1); /* the same shape, but another render */
+    lay_random(from, 1);
+    from->id = 7, set->id = 8;
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
     assert_non_null(strstr(err.message, "another render"));
-    other->id = 7;
-    test_must(retex_samples_check(samples, other, &err), &err);
-    assert_int_equal(retex_samples_check(samples, set, &err), 0);
-    strcpy(samples->target_names[0], "Ceiling");
-    assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
-    strcpy(samples->target_names[0], set->targets[0].name);
-    samples->footprints[1].hit++;
-    assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
-    retex_samples_close(&samples);
+    set->id = 7;
+    strcpy(from->targets[0].name, "Ceiling");
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
+    strcpy(from->targets[0].name, set->targets[0].name);
+    from->footprints[1].hit++;
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
+    from->footprints[1].hit--;
+    from->nfootprints--;
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
+    from->nfootprints++;
+    from->footprints[1].finished[0] = from->footprints[1].sampled; /* of a target that has no finishes */
+    assert_int_equal(retex_set_lay(set, from, &err), RETEX_EINVAL);
+    from->footprints[1].finished[0] = 0;
+    assert_false(retex_set_has_laid(set));
+    test_must(retex_set_lay(set, from, &err), &err);
+    assert_true(retex_set_has_laid(set));
+    retex_set_close(&from);
     retex_set_close(&set);
-    retex_set_close(&other);
 }
 
 /* What rows are as they are stored, and their checksums, tell of the same samples as a file. */
@@ -491,8 +535,8 @@ static void write_and_read(RetexSet **set, RetexSet **read)
 {
     RetexError err = {0};
     *set = test_set(37, 19, 5);
-    test_must(retex_set_write(*set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_read(path, read, NULL, 0, &err), &err);
+    test_must(retex_set_write(*set, path, NULL, 0, &err), &err);
+    test_must(retex_set_read(path, read, 0, &err), &err);
 }
 
 /* Rows as hosts store them are those that are read from the set's own file. */
@@ -553,7 +597,8 @@ int main(void)
         cmocka_unit_test(test_names_are_checked),
         cmocka_unit_test(finishes_are_numbered_from_1),
         cmocka_unit_test(wrong_mixtures_are_not_written),
-        cmocka_unit_test(images_of_finishes_are_found),
+        cmocka_unit_test(textures_are_lifted_by_target),
+        cmocka_unit_test(sets_with_textures_are_not_packed),
         cmocka_unit_test(test_samples_of_another_set),
         cmocka_unit_test(test_stored_rows),
         cmocka_unit_test(test_stored_checksums),

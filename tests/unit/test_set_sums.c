@@ -124,8 +124,8 @@ static void test_threads(void **state)
     for (int damaged = 0; damaged < 2; damaged++)
         for (int k = 0; k < 2; k++) {
             const int nthreads = 1 + 3 * k;
-            test_must(retex_set_open(test_own_file, &set, NULL, nthreads, &err), &err);
-            const int code = retex_combine(&pictures[k], set, NULL, NULL, NULL, nthreads, &err);
+            test_must(retex_set_open(test_own_file, &set, nthreads, &err), &err);
+            const int code = retex_combine(&pictures[k], set, NULL, NULL, nthreads, &err);
             retex_set_close(&set);
             assert_int_equal(code, damaged ? RETEX_EFORMAT : RETEX_OK);
             if (k == 1)

@@ -70,7 +70,7 @@ static RetexImage edited(const RetexSet *set, const char *text)
                                   retex_edit_count(edit), 1, &err),
               &err);
     test_must(retex_image_alloc(&picture, set->width, set->height, 3, &err), &err);
-    test_must(retex_retexture(set, NULL, textures, &params, retex_image_keep_rows, &picture, 2, &err), &err);
+    test_must(retex_retexture(set, textures, &params, retex_image_keep_rows, &picture, 2, &err), &err);
     retex_textures_close(textures);
     retex_edit_close(&edit);
     return picture;
@@ -149,7 +149,7 @@ static RetexSolution *solve(const RetexSet *set, const RetexImage *picture, cons
     RetexSolution *solution = NULL;
     RetexError err = {0};
     params.unknowns = unknowns;
-    test_must(retex_solve(&solution, set, NULL, NONE, picture, &params, threads, &err), &err);
+    test_must(retex_solve(&solution, set, NONE, picture, &params, threads, &err), &err);
     return solution;
 }
 
@@ -326,7 +326,7 @@ static void expect_refused(const RetexSet *set, const RetexImage *picture, const
 {
     RetexSolution *solution = NULL;
     RetexError err = {0};
-    assert_int_equal(retex_solve(&solution, set, NULL, NONE, picture, params, 2, &err), code);
+    assert_int_equal(retex_solve(&solution, set, NONE, picture, params, 2, &err), code);
     assert_null(solution);
     if (!strstr(err.message, message))
         fail_msg("'%s' says nothing of '%s'", err.message, message);

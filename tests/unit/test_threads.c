@@ -59,8 +59,7 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 
 /* What operations work on, made on all cores before anything is counted. */
 typedef struct Room {
-    RetexSet *set, *noisy;
-    RetexSamples *samples;
+    RetexSet *set, *noisy, *laid;
     RetexTexture *texture, *textures[RETEX_MAX_TARGETS];
     RetexTextureSpec spec;
     RetexImage picture;
@@ -131,14 +130,14 @@ static int load_textures(Room *room, int nthreads, RetexError *err)
 
 static int write_set(Room *room, int nthreads, RetexError *err)
 {
-    return retex_set_write(room->set, NULL, test_in_folder("out.exr"), NULL, nthreads, err);
+    return retex_set_write(room->set, test_in_folder("out.exr"), NULL, nthreads, err);
 }
 
 static int read_set(Room *room, int nthreads, RetexError *err)
 {
     RetexSet *set = NULL;
     (void)room;
-    int code = retex_set_read(test_in_folder("set.exr"), &set, NULL, nthreads, err);
+    int code = retex_set_read(test_in_folder("set.exr"), &set, nthreads, err);
     retex_set_close(&set);
     return code;
 }
@@ -147,7 +146,7 @@ static int open_and_load(Room *room, int nthreads, RetexError *err)
 {
     RetexSet *set = NULL;
     (void)room;
-    int code = retex_set_open(test_in_folder("set.exr"), &set, NULL, nthreads, err);
+    int code = retex_set_open(test_in_folder("set.exr"), &set, nthreads, err);
     code = code ? code : retex_set_load(set, nthreads, err);
     retex_set_close(&set);
     return code;
@@ -157,8 +156,8 @@ static int preload(Room *room, int nthreads, RetexError *err)
 {
     RetexSet *set = NULL;
     (void)room;
-    int code = retex_set_open(test_in_folder("set.exr"), &set, NULL, nthreads, err);
-    code = code ? code : retex_set_preload(set, NULL, NULL, 1u << 30, nthreads, err);
+    int code = retex_set_open(test_in_folder("set.exr"), &set, nthreads, err);
+    code = code ? code : retex_set_preload(set, NULL, 1u << 30, nthreads, err);
     retex_set_close(&set);
     return code;
 }
@@ -208,38 +207,23 @@ static int compare_pack(Room *room, int nthreads, RetexError *err)
 
 static int sample(Room *room, int nthreads, RetexError *err)
 {
-    RetexSamples *samples = NULL;
-    int code = retex_sample(&samples, room->set, &room->spec, 1, nthreads, err);
-    retex_samples_close(&samples);
+    const int code = retex_sample(room->set, &room->spec, 1, nthreads, err);
+    retex_set_lift(room->set, -1);
     return code;
 }
 
 static int sample_textures(Room *room, int nthreads, RetexError *err)
 {
-    RetexSamples *samples = NULL;
-    int code = test_sample_to_store(&samples, room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
-    code = code ? code : retex_samples_load(samples, nthreads, err);
-    retex_samples_close(&samples);
-    return code;
-}
-
-/* Two band stores have no place in one: the second is loaded. */
-static int merge_samples(Room *room, int nthreads, RetexError *err)
-{
-    RetexSamples *samples[2] = {NULL, NULL};
-    int code = 0;
-    for (int k = 0; !code && k < 2; k++)
-        code = test_sample_to_store(&samples[k], room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
-    code = code ? code : retex_samples_merge(samples[0], samples[1], nthreads, err);
-    for (int k = 0; k < 2; k++)
-        retex_samples_close(&samples[k]);
+    int code = test_sample_to_store(room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
+    code = code ? code : retex_set_load(room->set, nthreads, err);
+    retex_set_lift(room->set, -1);
     return code;
 }
 
 static int combine(Room *room, int nthreads, RetexError *err)
 {
     RetexImage picture = {0};
-    int code = retex_combine(&picture, room->set, room->samples, NULL, NULL, nthreads, err);
+    int code = retex_combine(&picture, room->laid, NULL, NULL, nthreads, err);
     retex_image_free(&picture);
     return code;
 }
@@ -252,12 +236,12 @@ static int ignore_rows(void *context, int y0, int y1, const float *rows, RetexEr
 
 static int retexture(Room *room, int nthreads, RetexError *err)
 {
-    return retex_retexture(room->set, NULL, room->textures, NULL, ignore_rows, NULL, nthreads, err);
+    return retex_retexture(room->set, room->textures, NULL, ignore_rows, NULL, nthreads, err);
 }
 
 static int estimate_error(Room *room, int nthreads, RetexError *err)
 {
-    return retex_estimate_error(room->set, NULL, room->textures, NULL, ignore_rows, NULL, nthreads, err);
+    return retex_estimate_error(room->set, room->textures, NULL, ignore_rows, NULL, nthreads, err);
 }
 
 static int denoise(Room *room, int nthreads, RetexError *err)
@@ -266,7 +250,7 @@ static int denoise(Room *room, int nthreads, RetexError *err)
     RetexSet *set = NULL;
     (void)room;
     params.radius = 2;
-    int code = retex_set_read(test_in_folder("noisy.exr"), &set, NULL, nthreads, err);
+    int code = retex_set_read(test_in_folder("noisy.exr"), &set, nthreads, err);
     code = code ? code : retex_denoise(set, &params, NULL, nthreads, err);
     retex_set_close(&set);
     return code;
@@ -278,7 +262,7 @@ static int denoise_open(Room *room, int nthreads, RetexError *err)
     RetexSet *set = NULL;
     (void)room;
     params.radius = 2;
-    int code = retex_set_open(test_in_folder("noisy.exr"), &set, NULL, nthreads, err);
+    int code = retex_set_open(test_in_folder("noisy.exr"), &set, nthreads, err);
     code = code ? code : retex_denoise(set, &params, NULL, nthreads, err);
     retex_set_close(&set);
     return code;
@@ -321,7 +305,6 @@ static const struct {
     {"retex_pack_loss", compare_pack},
     {"retex_sample", sample},
     {"retex_sample_textures", sample_textures},
-    {"retex_samples_merge", merge_samples},
     {"retex_combine", combine},
     {"retex_retexture", retexture},
     {"retex_estimate_error", estimate_error},
@@ -339,26 +322,27 @@ static void make_room(Room *room)
     room->spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     room->set = test_set(WIDTH, HEIGHT, 5);
     test_make_footprints(room->set);
-    test_must(retex_set_write(room->set, NULL, test_in_folder("set.exr"), NULL, 0, &err), &err);
+    test_must(retex_set_write(room->set, test_in_folder("set.exr"), NULL, 0, &err), &err);
     test_must(retex_pack_write(room->set, test_in_folder("set.retex"), NULL, NULL, 0, &err), &err);
     room->pack = test_read_file(test_in_folder("set.retex"), &room->pack_bytes);
     room->noisy = denoise_set("footprints", WIDTH, HEIGHT);
     denoise_add_noise(room->noisy, 7);
-    test_must(retex_set_write(room->noisy, NULL, test_in_folder("noisy.exr"), NULL, 0, &err), &err);
+    test_must(retex_set_write(room->noisy, test_in_folder("noisy.exr"), NULL, 0, &err), &err);
     test_random_image(&room->picture, 80, HEIGHT, 3, 3, 0, 1);
     snprintf(room->spec.image, sizeof room->spec.image, "%s", test_in_folder("picture.exr"));
     snprintf(room->spec.target, sizeof room->spec.target, "%s", room->set->targets[0].name);
     test_must(retex_image_write(&room->picture, room->spec.image, NULL, 0, &err), &err);
     test_must(retex_texture_create(&room->texture, &room->picture, NULL, 0, &err), &err);
     test_must(retex_textures_load(room->textures, room->set, &room->spec, 1, 0, &err), &err);
-    test_must(retex_sample(&room->samples, room->set, &room->spec, 1, 0, &err), &err);
+    test_must(retex_set_read(test_in_folder("set.exr"), &room->laid, 0, &err), &err);
+    test_must(retex_sample(room->laid, &room->spec, 1, 0, &err), &err);
 }
 
 static void close_room(Room *room)
 {
     retex_set_close(&room->set);
     retex_set_close(&room->noisy);
-    retex_samples_close(&room->samples);
+    retex_set_close(&room->laid);
     retex_texture_close(&room->texture);
     retex_textures_close(room->textures);
     retex_image_free(&room->picture);

@@ -10,7 +10,7 @@
 #include "render/render.h"
 #include "sdl/lang/parser.h"
 #include "sdl/statements.h"
-#include "set/samples.h"
+#include "set/laid.h"
 
 /* A scene with targets A and B, where it declares them. */
 static Scene *read_scene(const char *text, const char *const *targets, int ntargets)

@@ -54,14 +54,17 @@ void job_take_size(Cli *cli, const CliOption *option, void *to)
     cli_die(cli, "--%s: expected WxH in pixels, or Wx or xH to keep the aspect, not '%s'", option->name, cli->value);
 }
 
-static int load_samples(const Cli *cli, Job *job, RetexError *err)
+static int lay_samples(const Cli *cli, Job *job, RetexError *err)
 {
     RetexError why = {0};
+    RetexSet *samples = NULL;
     cli_input(cli, job->samples_path, "samples, as from retex-sample");
-    int code = retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &why);
-    if (!code && !job->samples)
-        code = retex_fail(&why, RETEX_EINVAL, "%s holds no samples", job->samples_path);
-    return code ? fail_samples(cli, job, &why, err) : retex_samples_check(job->samples, job->set, err);
+    int code = retex_set_open_any(job->samples_path, &samples, cli->threads, &why);
+    if (!code && !retex_set_info(samples).is_samples && !retex_set_has_laid(samples))
+        code = retex_fail(&why, RETEX_EFORMAT, "%s holds a set, no samples", job->samples_path);
+    code = code ? fail_samples(cli, job, &why, err) : retex_set_lay(job->set, samples, err);
+    retex_set_close(&samples);
+    return code;
 }
 
 /* A picture that is much smaller than the set is made of a level, if the set has one that serves. */
@@ -87,10 +90,11 @@ static int take_level(const Cli *cli, Job *job, RetexError *err)
 int job_open(const Cli *cli, Job *job, RetexError *err)
 {
     cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
-    int code = retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, err);
-    if (!code && !job->set && *retex_samples_set_path(job->samples))
-        code = cli_open_referred(cli, &job->set, job->samples, job->set_path, err);
-    else if (!code && !job->set)
+    int code = retex_set_open_any(job->set_path, &job->set, cli->threads, err);
+    const int is_samples = !code && retex_set_info(job->set).is_samples;
+    if (is_samples && !job->samples_path && *retex_set_reference(job->set))
+        code = cli_open_referred(cli, &job->set, job->set_path, err);
+    else if (is_samples)
         code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set_path);
     if (code)
         return code;
@@ -99,18 +103,17 @@ int job_open(const Cli *cli, Job *job, RetexError *err)
     code = retex_cut_fit(&job->cut, info.width, info.height, job->crop, job->scaled[0], job->scaled[1], err);
     if (code)
         return code;
-    if (!job->samples && !job->samples_path)
+    if (!job->samples_path && !retex_set_has_laid(job->set))
         code = take_level(cli, job, err);
     if (code)
         return code;
     job->combine.x0 = job->cut.x, job->combine.x1 = job->cut.x + job->cut.width;
     job->combine.y0 = job->cut.y, job->combine.y1 = job->cut.y + job->cut.height;
-    return job->samples_path ? load_samples(cli, job, err) : RETEX_OK;
+    return job->samples_path ? lay_samples(cli, job, err) : RETEX_OK;
 }
 
 void job_close(Job *job)
 {
-    retex_samples_close(&job->samples);
     retex_set_close(&job->set);
 }
 
@@ -159,7 +162,7 @@ void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs
     const int ntargets = retex_set_info(job->set).ntargets;
     int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
     for (int t = 0; t < ntargets; t++)
-        edited[t] = job->samples && *retex_samples_texture(job->samples, t);
+        edited[t] = *retex_set_target(job->set, t)->texture != '\0';
     for (int i = 0; i < nspecs; i++) {
         const int t = retex_set_find_target(job->set, specs[i].target);
         if (t >= 0)
@@ -173,5 +176,5 @@ void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs
 
 int job_preload(const Cli *cli, Job *job, const int corrected[RETEX_MAX_TARGETS], RetexError *err)
 {
-    return retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, err);
+    return retex_set_preload(job->set, corrected, cli_memory(cli, job->memory), cli->threads, err);
 }

@@ -29,8 +29,7 @@ typedef struct Job {
     RetexEdit *lights; /* of the command line: lamps, finishes, and how the picture is developed */
     RetexEdit *solo;   /* --solo, while the command line is read */
     float parameters[3 * RETEX_PARAMETERS_MAX];
-    RetexSet *set;         /* rows are read when they are needed */
-    RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
+    RetexSet *set; /* with the samples; rows are read when they are needed */
 } Job;
 
 /* ---- job.c: files ---- */

@@ -16,18 +16,17 @@ int job_describe(const Job *job, const RetexTextureSpec *specs, int count, Batch
     int found = 0;
     for (int t = 0; (target = retex_set_target(job->set, t)); t++) {
         const RetexTextureSpec *spec = NULL;
-        const char *sampled = job->samples ? retex_samples_texture(job->samples, t) : "";
         for (int i = 0; i < count; i++)
             if (retex_set_find_target(job->set, specs[i].target) == t)
                 spec = &specs[i];
-        if (!spec && !sampled[0])
+        if (!spec && !target->texture[0])
             continue;
         BatchTexture *texture = &textures[found++];
         texture->target = target->name;
         if (spec)
             retex_edit_image_text(spec, texture->texture, sizeof texture->texture);
         else
-            snprintf(texture->texture, sizeof texture->texture, "%s", sampled);
+            snprintf(texture->texture, sizeof texture->texture, "%s", target->texture);
     }
     return found;
 }
@@ -55,7 +54,7 @@ static int write_rows(void *picture, int y0, int y1, const float *rows, RetexErr
 }
 
 /* retex_retexture, or retex_estimate_error. */
-typedef int Maker(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
+typedef int Maker(const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                   const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err);
 
 typedef struct CutRows {
@@ -81,10 +80,10 @@ static int make_cut(const Job *job, const Row *row, Maker *make, RetexRowSink *s
     RetexShrink *shrink = NULL;
     RetexImage image = {0};
     if (retex_cut_is_whole(&job->cut, info.width, info.height))
-        return make(job->set, job->samples, row->textures, &job->combine, sink, context, nthreads, err);
+        return make(job->set, row->textures, &job->combine, sink, context, nthreads, err);
     int code = retex_shrink_open(&shrink, &job->cut, info.width, err);
     if (!code)
-        code = make(job->set, job->samples, row->textures, &job->combine, retex_shrink_rows, shrink, nthreads, err);
+        code = make(job->set, row->textures, &job->combine, retex_shrink_rows, shrink, nthreads, err);
     if (!code)
         code = retex_shrink_take(&shrink, &image, nthreads, err);
     CutRows rows = {&image, sink, context};
@@ -138,7 +137,7 @@ static int find_exposure(const Cli *cli, Job *job, const Row *row, char *text, s
     double stops = 0;
     int code = RETEX_OK;
     if (job->develop.auto_exposure) {
-        code = retex_auto_exposure(&stops, job->set, job->samples, row->textures, &job->combine, cli->threads, err);
+        code = retex_auto_exposure(&stops, job->set, row->textures, &job->combine, cli->threads, err);
         snprintf(text, size, ", auto-exposure %+.2f", stops);
         stops += job->develop.exposure;
         job->develop.exposure = fmin(fmax(stops, -RETEX_EXPOSURE_MAX), RETEX_EXPOSURE_MAX);

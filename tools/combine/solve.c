@@ -226,8 +226,7 @@ static int make_picture(const Cli *cli, Job *job, const RetexSolution *solution,
     if (!code)
         code = kept_textures_load(kept, job->set, specs, count, cli->threads, err);
     if (!code)
-        code = retex_retexture(job->set, job->samples, kept->textures, &job->combine, retex_image_keep_rows, made,
-                               cli->threads, err);
+        code = retex_retexture(job->set, kept->textures, &job->combine, retex_image_keep_rows, made, cli->threads, err);
     retex_edit_close(&edit);
     return code;
 }
@@ -253,8 +252,7 @@ static int approach(const Cli *cli, Job *job, Solving *s, const RetexSolveParams
 {
     int code = retex_image_alloc(&s->made, s->picture->width, s->picture->height, 3, err);
     if (!code)
-        code = retex_solve(&s->solution, job->set, job->samples, s->given->textures, s->picture, params, cli->threads,
-                           err);
+        code = retex_solve(&s->solution, job->set, s->given->textures, s->picture, params, cli->threads, err);
     if (!code)
         code = make_picture(cli, job, s->solution, &s->kept, &s->made, err);
     if (!code)
@@ -334,7 +332,7 @@ static int solve(const Cli *cli, Job *job, const RetexImage *picture, RetexImage
     params.mean = is_color;
     int code = kept_textures_load(&given, job->set, job->textures.specs, job->textures.count, cli->threads, err);
     if (!code)
-        code = retex_set_preload(job->set, job->samples, NULL, memory, cli->threads, err);
+        code = retex_set_preload(job->set, NULL, memory, cli->threads, err);
     if (!code)
         code = approach(cli, job, &best, &params, err);
     if (!code && best.far > (is_color ? FAR_COLOR : FAR))

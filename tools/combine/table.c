@@ -164,17 +164,11 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
     return job_describe(job, all, complete_row(job, all, count), textures);
 }
 
-/* The memory for samples that several pictures use: what the set leaves, if that is kept, and other samples. */
+/* The memory for samples that several pictures use: what the set leaves, if that is kept. */
 static uint64_t memory_left(const Cli *cli, const Job *job, const int corrected[RETEX_MAX_TARGETS])
 {
     const uint64_t memory = cli_memory(cli, job->memory), of_set = retex_set_preload_bytes(job->set, corrected);
-    const uint64_t left = of_set <= memory ? memory - of_set : memory;
-    const RetexSetInfo info = retex_set_info(job->set);
-    const uint64_t of_samples =
-        job->samples ? 3 * sizeof(float) * (uint64_t)info.width * (uint64_t)info.height *
-                           (uint64_t)retex_samples_info(job->samples).nfootprints
-                     : 0; /* at most */
-    return left > of_samples ? left - of_samples : 0;
+    return of_set <= memory ? memory - of_set : memory;
 }
 
 /* Load what all pictures need, corrections included, and find what they have in common. */

@@ -616,7 +616,7 @@ void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path)
 
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memory, RetexError *err)
 {
-    int code = retex_set_open(path, set, NULL, cli->threads, err);
+    int code = retex_set_open(path, set, cli->threads, err);
     if (!code)
         cli_check_pixels(cli, *set, path);
     if (!code && retex_set_bytes(*set) <= cli_memory(cli, memory))

@@ -7,7 +7,7 @@
 
 #include <retex/access.h>
 #include <retex/budget.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 
 enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
 
@@ -167,8 +167,7 @@ void cli_answer(Cli *cli);
  * is neither "-" nor a regular file. `what` is the expected content, for the message. */
 void cli_input(const Cli *cli, const char *path, const char *what);
 /* Open the set that the samples from a file or stream name. Safe access: it lies below the current folder or theirs. */
-int cli_open_referred(const Cli *cli, RetexSet **set, const RetexSamples *samples, const char *path,
-                      RetexError *err);
+int cli_open_referred(const Cli *cli, RetexSet **samples, const char *path, RetexError *err);
 
 /* ---- cli_files.c: no output replaces an input, or another output ----
  *

@@ -213,7 +213,7 @@ int cli_add_output(const char *what, const char *path, RetexError *err)
     return code ? code : add_file(what, path, 1, err);
 }
 
-int cli_open_referred(const Cli *cli, RetexSet **set, const RetexSamples *samples, const char *path, RetexError *err)
+int cli_open_referred(const Cli *cli, RetexSet **samples, const char *path, RetexError *err)
 {
     char here[PATH_MAX], beside[PATH_MAX];
     const char *roots[2];
@@ -226,8 +226,8 @@ int cli_open_referred(const Cli *cli, RetexSet **set, const RetexSamples *sample
         slash[slash == beside] = '\0';
         roots[access.nroots++] = beside;
     }
-    const int code = retex_samples_open_set(set, samples, access.safe ? &access : NULL, cli->threads, err);
-    return code ? code : cli_add_input("the set", retex_samples_set_path(samples), err);
+    const int code = retex_set_open_referred(samples, access.safe ? &access : NULL, cli->threads, err);
+    return code ? code : cli_add_input("the set", retex_set_reference(*samples), err);
 }
 
 void cli_reads(const Cli *cli, const char *what, const char *path)

@@ -67,7 +67,7 @@ static void print_set_targets(const char *path)
 {
     RetexSet *set = NULL;
     struct stat info;
-    if (stat(path, &info) || !S_ISREG(info.st_mode) || retex_set_open(path, &set, NULL, 1, NULL))
+    if (stat(path, &info) || !S_ISREG(info.st_mode) || retex_set_open(path, &set, 1, NULL))
         return;
     const RetexTarget *target;
     for (int t = 0; set && (target = retex_set_target(set, t)); t++)

@@ -8,7 +8,7 @@
 
 static int write_exr(RetexSet *set, const char *path, int nthreads, RetexError *err)
 {
-    return retex_set_write(set, NULL, path, NULL, nthreads, err);
+    return retex_set_write(set, path, NULL, nthreads, err);
 }
 
 static int write_pack(RetexSet *set, const char *path, int nthreads, RetexError *err)

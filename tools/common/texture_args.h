@@ -194,15 +194,15 @@ static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextur
 }
 
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */
-static inline const char *texture_args_describe(const RetexSamples *samples, char *text, size_t size)
+static inline const char *texture_args_describe(const RetexSet *set, char *text, size_t size)
 {
-    const int ntargets = samples ? retex_samples_info(samples).ntargets : 0;
+    const RetexTarget *target;
     size_t used = 0;
     text[0] = '\0';
-    for (int t = 0; t < ntargets && used < size; t++)
-        if (*retex_samples_texture(samples, t))
-            used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", used ? ", " : "",
-                                     retex_samples_target(samples, t), retex_samples_texture(samples, t));
+    for (int t = 0; (target = retex_set_target(set, t)) && used < size; t++)
+        if (target->texture[0])
+            used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", used ? ", " : "", target->name,
+                                     target->texture);
     return used ? text : "original textures";
 }
 

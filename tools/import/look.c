@@ -148,7 +148,7 @@ static int see(const LookParams *params, Meter *seen, RetexError *err)
     int code = render(params, err);
     path_of(params, PICTURE, "", path);
     if (!code)
-        code = retex_set_read(path, &set, NULL, 1, err);
+        code = retex_set_read(path, &set, 1, err);
     unlinkat(params->folder, PICTURE, 0);
     if (!code)
         meter_read(seen, set);

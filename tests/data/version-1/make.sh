@@ -29,7 +29,7 @@ for file in lamps.exr lamps.retex denoised.exr; do
     # shellcheck disable=SC2086 # words wanted
     retex-combine -q $file $edits $lit -o "picture-$file.exr"
 done
-cp picture-lamps.exr.exr picture-lamps-laid.exr
+mv picture-lamps.exr.exr picture-lamps-laid.exr
 retex-combine -q lamps.exr --texture:finish=map.ppm Floor=tan -o picture-map.exr
 for file in normals.exr normals.retex; do
     retex-combine -q $file --texture:normal=map.ppm Wall=map.ppm -o "picture-$file.exr"

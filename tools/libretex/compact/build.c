@@ -54,7 +54,7 @@ int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *er
         return code;
     RetexSet empty = *set;
     empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
-    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.store = NULL, empty.source = NULL;
+    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL;
     **copy = empty;
     return code;
 }

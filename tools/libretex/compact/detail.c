@@ -14,7 +14,6 @@
 #include "compact/image_noise.h"
 #include "compact/strips.h"
 #include "set/noise.h"
-#include "set/samples.h"
 #include "set/strip.h"
 #include "set/set.h"
 

@@ -12,6 +12,7 @@
 #include "denoise/second.h"
 #include "denoise/strips.h"
 #include "denoise/totals.h"
+#include "set/laid.h"
 #include "set/parts.h"
 
 enum { PREVIEW_RADIUS = 2 };
@@ -116,6 +117,8 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
 {
     RetexDenoiser d = {.set = set, .params = RETEX_DENOISE_INIT};
     int code = RETEX_PARAMS_COPY(&d.params, params, err);
+    if (!code)
+        code = retex_set_check_bare(set, "a denoised set", err);
     if (!code)
         code = check_params(&d.params, err);
     d.uses_originals = d.params.footprints;

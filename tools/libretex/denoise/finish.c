@@ -94,7 +94,7 @@ static int make_picture(const RetexDenoiser *d, const RetexTerm *picture, int nt
             values[picture->factors[0].index][c] = 1;
         sum.parameters = values[0];
     }
-    const int code = retex_combine(&part->image, set, NULL, &sum, &d->roi, nthreads, err);
+    const int code = retex_combine(&part->image, set, &sum, &d->roi, nthreads, err);
     for (int y = 0; y < set->height && !code; y++)
         retex_part_round_row(part, y);
     return code;

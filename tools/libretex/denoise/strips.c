@@ -92,7 +92,8 @@ static int store_rows(RetexBandStore *store, const int *images, const RetexSet *
 typedef struct Strips {
     const RetexDenoiser *denoiser;
     RetexDenoiseResult result;
-    RetexSet filtered; /* the set with the band store of what was filtered */
+    RetexSet filtered; /* the set with what was filtered, which is in: */
+    RetexSetSource *between;
     RetexPassedStore passed;
     RetexBandStore *stores[2]; /* filtered, finished */
     int *images[2];            /* by part: number of its image in each band store, or -1 */
@@ -260,8 +261,13 @@ static int second_all(Strips *s, RetexError *err)
 static int open_filtered(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
+    if (s->stores[0]) {
+        const int code = retex_store_source_open(&s->between, s->stores[0], err);
+        s->stores[0] = NULL;
+        if (code)
+            return code;
+    }
     s->filtered = *set;
-    s->filtered.store = s->stores[0];
     s->filtered.parts = malloc(sizeof *set->parts * (size_t)set->nparts);
     if (!s->filtered.parts)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
@@ -269,8 +275,10 @@ static int open_filtered(Strips *s, RetexError *err)
     for (int k = 0; k < set->nparts; k++)
         if (retex_part_is_denoise_data(set, k) && !retex_name_is_noise(set->parts[k].name)) /* rounding reads noise */
             s->filtered.parts[k].image = (RetexImage){0};
-        else if (s->images[0][k] >= 0)
-            s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].store_image = 1 + s->images[0][k];
+        else if (s->images[0][k] >= 0) {
+            s->filtered.parts[k].image.pixels = NULL;
+            s->filtered.parts[k].source = s->between, s->filtered.parts[k].source_part = s->images[0][k];
+        }
     return RETEX_OK;
 }
 
@@ -331,22 +339,26 @@ static int take_over(Strips *s, RetexError *err)
         }
         *to = image;
     }
-    for (int k = 0; k < set->nparts; k++)
-        if (s->images[1][k] >= 0) {
+    RetexSetSource *finished;
+    const int code = retex_store_source_open(&finished, s->stores[1], err);
+    s->stores[1] = NULL;
+    if (code)
+        return code;
+    for (int k = 0; k < set->nparts; k++) {
+        const int is_stored = s->images[1][k] >= 0;
+        if (is_stored) {
             free(set->parts[k].image.pixels);
             set->parts[k].image.pixels = NULL;
-            set->parts[k].store_image = 1 + s->images[1][k];
         }
-    set->source->close(set->source);
-    set->source = NULL;
-    set->store = s->stores[1];
-    s->stores[1] = NULL;
+        retex_part_set_source(&set->parts[k], is_stored ? finished : NULL, is_stored ? s->images[1][k] : 0);
+    }
+    retex_source_release(&finished);
     return RETEX_OK;
 }
 
 int retex_denoise_can_use_strips(const RetexSet *set)
 {
-    return set->source && !set->store;
+    return set->nparts && set->parts[0].source && !retex_part_store(&set->parts[0]);
 }
 
 int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError *err)
@@ -374,6 +386,7 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     }
     retex_passed_store_close(&s.passed);
     free(s.filtered.parts);
+    retex_source_release(&s.between);
     free(s.wanted);
     retex_denoise_result_close(&s.result);
     return code;

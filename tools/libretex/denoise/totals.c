@@ -106,7 +106,7 @@ static int load_band(void *context, int index, int thread, RetexError *err)
     const int height = p->of->set->height, end = (index + 1) * BAND < height ? (index + 1) * BAND : height;
     int code = retex_budget_check(p->of->params.budget, err);
     if (!code && !p->readers[thread])
-        code = retex_row_reader_open(&p->readers[thread], p->of->set, NULL, err);
+        code = retex_row_reader_open(&p->readers[thread], p->of->set, err);
     for (int y = index * BAND; y < end && !code; y++) {
         code = p->signal ? load_color(p, thread, y, err) : load_normal(p, thread, y, err);
         if (!code && p->signal)

@@ -40,7 +40,7 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
         return code;
     if (format == &retex_set_format_exr)
         return retex_image_read(&layers->picture, path, params, layers->nthreads, err);
-    code = format->open(&layers->input, &layers->set, NULL, 1, layers->nthreads, err);
+    code = format->open(&layers->input, &layers->set, 1, layers->nthreads, err);
     if (!code)
         code = check_pixels(layers, path, layers->set->width, layers->set->height, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);

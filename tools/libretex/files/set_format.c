@@ -7,12 +7,9 @@
 #include "pack/open.h"
 #include "set/read.h"
 
-static int open_pack(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
-                     RetexError *err)
+static int open_pack(RetexInput **input, RetexSet **set, int open, int nthreads, RetexError *err)
 {
-    (void)samples, (void)open, (void)nthreads; /* its parts are always read on demand, and there are no samples */
-    if (!set)
-        return retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(*input));
+    (void)open, (void)nthreads; /* its parts are always read on demand */
     return retex_pack_open(set, input, err);
 }
 

@@ -143,7 +143,7 @@ static int measure_picture(const PictureWork *work, int picture, int nthreads, R
     for (int i = 0; i < work->set->ntargets; i++)
         textures[i] = texture;
     if (!code)
-        code = retex_retexture(work->set, NULL, textures, &params, process_rows, &own, nthreads, err);
+        code = retex_retexture(work->set, textures, &params, process_rows, &own, nthreads, err);
     retex_texture_close(&texture);
     retex_image_free(&texels);
     return code;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 #include <retex/set_file.h>
 
 #include "base/params.h"
@@ -148,12 +148,8 @@ static int check_sizes(const RetexPack *pack, RetexError *err)
 /* The set that the manifest describes, its parts without pixels. */
 static int read_set(RetexSet **set, const char *manifest, RetexError *err)
 {
-    RetexSamples *samples = NULL;
-    RetexSamplePart *names = NULL;
-    int code = retex_manifest_read(manifest, "the pack", set, &samples, &names, NULL, err);
-    free(names);
-    retex_samples_close(&samples);
-    if (!code && !*set)
+    int code = retex_manifest_read(manifest, "the pack", set, NULL, err);
+    if (!code && (*set)->is_samples)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest describes no set");
     return code;
 }
@@ -233,11 +229,12 @@ static int read_row(void *reader, int part, int y, const float **row, RetexRowSp
     return code;
 }
 
-static const RetexSetSource pack_methods = {source_close, reader_open, reader_close, read_row, NULL};
+static const RetexSetSource pack_methods = {source_close, reader_open, reader_close, read_row, NULL, 1};
 
 RetexPack *retex_pack_of(const RetexSet *set)
 {
-    return set->source && set->source->close == source_close ? (RetexPack *)(void *)set->source : NULL;
+    RetexSetSource *source = set->nparts ? set->parts[0].source : NULL;
+    return source && source->close == source_close ? (RetexPack *)(void *)source : NULL;
 }
 
 int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err)
@@ -250,8 +247,11 @@ int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err)
     *input = NULL;
     const int code = retex_input_check(pack->input, open_pack(pack, set, err), err);
     if (!code) {
-        pack->methods = pack_methods;
-        (*set)->source = &pack->methods;
+        RetexSetSource *source = &pack->methods;
+        *source = pack_methods;
+        for (int i = 0; i < (*set)->nparts; i++)
+            retex_part_set_source(&(*set)->parts[i], source, i);
+        retex_source_release(&source);
         return 0;
     }
     if (err)

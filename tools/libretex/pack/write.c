@@ -21,6 +21,7 @@
 #include "pack/loss.h"
 #include "pack/zip.h"
 #include "reduce/plan.h"
+#include "set/laid.h"
 #include "set/set.h"
 
 /* dB by which compacting alone aims above the whole, because its errors and those of coding add up. The margin grows by
@@ -59,7 +60,7 @@ static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPac
         described.parts[i] = w->set->parts[i];
         described.parts[i].crc = w->items[i].crc;
     }
-    int code = retex_set_manifest(&described, NULL, &json, err);
+    int code = retex_set_manifest(&described, &json, err);
     free(described.parts);
     if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, promise, &levels->scales)))
         code = no_memory(err);
@@ -420,7 +421,9 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
         return RETEX_EINVAL;
     if (params.quality < 1 || params.quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params.quality);
-    int code = begin_levels(&levels, set, &params, err);
+    int code = retex_set_check_bare(set, "a pack", err);
+    if (!code)
+        code = begin_levels(&levels, set, &params, err);
     if (!code)
         code = encode(&packed, set, &params, nthreads, err);
     if (!code)

@@ -11,7 +11,6 @@
 
 #include "base/jobs.h"
 #include "set/parts.h"
-#include "set/samples.h"
 #include "set/set.h"
 #include "set/signals.h"
 #include "set/strip.h"

@@ -10,6 +10,7 @@
 #include "precision/precision.h"
 #include "set/parts.h"
 #include "set/set.h"
+#include "set/source.h"
 
 enum { ROWS = 64 }; /* that are in memory at once */
 
@@ -20,6 +21,11 @@ typedef struct RoundedStore {
     int y;
 } RoundedStore;
 
+static int is_stored(const RetexPart *part)
+{
+    return !part->image.pixels && retex_part_store(part);
+}
+
 static int open_store(RoundedStore *s, const char *near, RetexError *err)
 {
     const RetexSet *set = s->set;
@@ -29,7 +35,7 @@ static int open_store(RoundedStore *s, const char *near, RetexError *err)
         code = retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
     for (int k = 0; k < set->nparts && !code; k++) {
         const RetexPart *part = &set->parts[k];
-        if (part->store_image)
+        if (is_stored(part))
             code = retex_band_store_add(s->store, part->name, part->letters, part->type, &s->images[k], err);
     }
     return code;
@@ -41,7 +47,7 @@ static int store_part(void *context, int part, int thread, RetexError *err)
     const RetexImage *im = &s->rows->parts[part].image;
     int code = RETEX_OK;
     (void)thread;
-    for (int y = 0; y < im->height && s->set->parts[part].store_image && !code; y += RETEX_BAND_ROWS)
+    for (int y = 0; y < im->height && is_stored(&s->set->parts[part]) && !code; y += RETEX_BAND_ROWS)
         code = retex_band_store_put(s->store, s->images[part], (s->y + y) / RETEX_BAND_ROWS,
                                     im->pixels + retex_image_index(im, 0, y), err);
     return code;
@@ -69,21 +75,24 @@ int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *e
     if (!set->nterms)
         return RETEX_OK;
     int code = retex_precision_open(&precision, set, 1, err);
-    if (!code && set->store)
-        code = open_store(&s, near, err);
+    for (int k = 0; k < set->nparts && !code && !s.store; k++)
+        if (is_stored(&set->parts[k]))
+            code = open_store(&s, near, err);
     if (!code)
         code = retex_set_strip_open(&strip, set, ROWS, 0, err);
     for (int y = 0; y < set->height && !code; y += ROWS)
         code = round_rows(precision, &s, strip, y, nthreads, err);
     retex_set_strip_close(&strip);
     retex_precision_close(&precision);
-    for (int k = 0; k < set->nparts && !code && s.store; k++)
-        if (set->parts[k].store_image)
-            set->parts[k].store_image = 1 + s.images[k];
+    RetexSetSource *rounded = NULL;
     if (!code && s.store) {
-        RetexBandStore *full = set->store;
-        set->store = s.store, s.store = full;
+        code = retex_store_source_open(&rounded, s.store, err);
+        s.store = NULL;
     }
+    for (int k = 0; k < set->nparts && rounded; k++)
+        if (is_stored(&set->parts[k]))
+            retex_part_set_source(&set->parts[k], rounded, s.images[k]);
+    retex_source_release(&rounded);
     retex_band_store_close(&s.store);
     free(s.images);
     return code;

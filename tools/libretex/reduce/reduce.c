@@ -8,6 +8,7 @@
 
 #include "base/jobs.h"
 #include "reduce/block.h"
+#include "set/laid.h"
 #include "set/parts.h"
 #include "set/set.h"
 #include "set/strip.h"
@@ -144,7 +145,9 @@ int retex_set_reduce(RetexSet **reduced, const RetexSet *set, int scale, int nth
     *reduced = NULL;
     if (scale < 2 || scale > RETEX_REDUCE_SIDE || STRIP_ROWS % scale)
         return retex_fail(err, RETEX_EINVAL, "a set is reduced by 2, 3, 4, 6 or 8, not by %d", scale);
-    int code = retex_reduce_plan_open(&r.plan, set, scale, err);
+    int code = retex_set_check_bare(set, "a smaller set", err);
+    if (!code)
+        code = retex_reduce_plan_open(&r.plan, set, scale, err);
     if (!code)
         code = make_scratch(&r, threads, err);
     if (!code)

@@ -4,7 +4,6 @@
  * (edited.h). A factor is the new texture's sample at its footprint or, where the target keeps its original, the
  * footprint's mean original albedo, which is exact for it. */
 #include <retex/combine.h>
-#include <retex/samples.h>
 
 #include <float.h>
 #include <math.h>
@@ -85,9 +84,8 @@ static int combine_strip(const void *context, RetexViewReader *reader, int y0, i
 }
 
 /* The developer of a picture: its automatic exposure needs a first pass. */
-static int open_developer(RetexDeveloper *developer, const RetexSet *set, const RetexSamples *samples,
-                          RetexTexture *const *textures, const RetexCombineParams *params, int nthreads,
-                          RetexError *err)
+static int open_developer(RetexDeveloper *developer, const RetexSet *set, RetexTexture *const *textures,
+                          const RetexCombineParams *params, int nthreads, RetexError *err)
 {
     RetexDevelop own = RETEX_DEVELOP_INIT;
     double stops = 0;
@@ -96,20 +94,18 @@ static int open_developer(RetexDeveloper *developer, const RetexSet *set, const 
         code = retex_developer_open(developer, &own, 0, err);
     if (code || !own.auto_exposure)
         return code;
-    code = retex_auto_exposure(&stops, set, samples, textures, params, nthreads, err);
+    code = retex_auto_exposure(&stops, set, textures, params, nthreads, err);
     return code ? code : retex_developer_open(developer, &own, stops, err);
 }
 
-static int open_combining(Combining *combining, const RetexSet *set, const RetexSamples *samples,
-                          RetexTexture *const *textures, const RetexCombineParams *params, int nthreads,
-                          RetexError *err)
+static int open_combining(Combining *combining, const RetexSet *set, RetexTexture *const *textures,
+                          const RetexCombineParams *params, int nthreads, RetexError *err)
 {
-    const int code = open_developer(&combining->developer, set, samples, textures, params, nthreads, err);
-    return code ? code
-                : retex_edited_open(&combining->edited, set, samples, textures, params, EDITED_PICTURE, nthreads, err);
+    const int code = open_developer(&combining->developer, set, textures, params, nthreads, err);
+    return code ? code : retex_edited_open(&combining->edited, set, textures, params, EDITED_PICTURE, nthreads, err);
 }
 
-int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
+int retex_retexture(const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
     RetexCombineParams own = RETEX_COMBINE_INIT;
@@ -117,7 +113,7 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     RetexView *view = &combining.edited.view;
     int code = RETEX_PARAMS_COPY(&own, params, err);
     if (!code)
-        code = open_combining(&combining, set, samples, textures, &own, nthreads, err);
+        code = open_combining(&combining, set, textures, &own, nthreads, err);
     if (code)
         return code;
     RetexRowSpan rows = {0, set->height};
@@ -130,9 +126,8 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     return code;
 }
 
-int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples,
-                        RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexCombineParams *params, int nthreads,
-                        RetexError *err)
+int retex_auto_exposure(double *exposure, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                        const RetexCombineParams *params, int nthreads, RetexError *err)
 {
     RetexCombineParams own = RETEX_COMBINE_INIT;
     RetexMeter meter = {0};
@@ -142,7 +137,7 @@ int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSample
     if (!code)
         code = retex_meter_open(&meter, set->width, set->height, err);
     if (!code)
-        code = retex_retexture(set, samples, textures, &own, retex_meter_rows, &meter, nthreads, err);
+        code = retex_retexture(set, textures, &own, retex_meter_rows, &meter, nthreads, err);
     *exposure = retex_meter_close(&meter);
     return code;
 }
@@ -152,7 +147,7 @@ int retex_combine_check(const RetexSet *set, RetexError *err)
     RetexCombineParams all = RETEX_COMBINE_INIT;
     RetexEdited edited;
     all.terms_only = 1;
-    int code = retex_edited_open(&edited, set, NULL, NULL, &all, EDITED_PICTURE, 1, err);
+    int code = retex_edited_open(&edited, set, NULL, &all, EDITED_PICTURE, 1, err);
     retex_edited_close(&edited);
     return code == RETEX_ENOMEM ? code : code == RETEX_OK;
 }
@@ -179,8 +174,8 @@ static int copy_rows(void *context, int y0, int y1, const float *rows, RetexErro
     return RETEX_OK;
 }
 
-int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples, const RetexCombineParams *params,
-                  const RetexRoi *roi, int nthreads, RetexError *err)
+int retex_combine(RetexImage *dst, const RetexSet *set, const RetexCombineParams *params, const RetexRoi *roi,
+                  int nthreads, RetexError *err)
 {
     Region region = {.dst = dst};
     RetexTexture *const none[RETEX_MAX_TARGETS] = {NULL};
@@ -188,7 +183,7 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
     Combining combining;
     int code = RETEX_PARAMS_COPY(&own, params, err);
     if (!code)
-        code = open_combining(&combining, set, samples, none, &own, nthreads, err);
+        code = open_combining(&combining, set, none, &own, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);

@@ -17,7 +17,7 @@
 #include "retexture/kept_samples.h"
 #include "retexture/term_finishes.h"
 #include "retexture/view_images.h"
-#include "set/samples.h"
+#include "set/set.h"
 
 #define ALL_CROSS_TERMS 3
 
@@ -62,15 +62,14 @@ static void share_light(RetexEdited *e)
 
 /* ---- what is edited ---- */
 
-/* Finds the targets that have a texture or samples. Returns their number. */
+/* Finds the targets that have a texture, or on which one is laid. Returns their number. */
 static int find_edited_targets(RetexEdited *e)
 {
     const RetexView *view = &e->view;
     int count = 0;
     for (int f = 0; f < view->set->nfootprints; f++) {
         const int t = view->set->footprints[f].target;
-        e->edited[t] |=
-            (view->textures && view->textures[t]) || (view->samples && retex_samples_have(view->samples, f));
+        e->edited[t] |= (view->textures && view->textures[t]) || view->set->footprints[f].sampled;
     }
     for (int t = 0; t < view->set->ntargets; t++)
         count += e->edited[t];
@@ -152,9 +151,7 @@ static const RetexImage *footprint_shape(const RetexView *view, int footprint)
     const RetexFootprint *f = &set->footprints[footprint];
     if (view->textures && view->textures[f->target])
         return part_image(set, f->uv, 3, 3);
-    if (view->samples && retex_samples_have(view->samples, footprint))
-        return &view->samples->images[footprint];
-    return part_image(set, f->albedo, 3, 3);
+    return part_image(set, f->sampled ? f->sampled - 1 : f->albedo, 3, 3);
 }
 
 static const RetexImage *mixture_shape(const RetexView *view, int mixture)
@@ -461,7 +458,7 @@ static int check_params(const RetexEdited *e, const float *parameters, RetexErro
         if (!(parameters[i] >= 0 && parameters[i] <= FLT_MAX))
             return retex_fail(err, RETEX_EINVAL, "parameter %s is %g", set->parameters[i / 3].name,
                               (double)parameters[i]);
-    int code = view->samples ? retex_samples_check(view->samples, set, err) : RETEX_OK;
+    int code = set->is_samples ? retex_fail(err, RETEX_EINVAL, "samples are no set: they have no picture") : RETEX_OK;
     for (int t = 0; view->kept && t < set->ntargets && !code; t++)
         code = view->kept[t] ? retex_kept_samples_check(view->kept[t], set, t, err) : RETEX_OK;
     return code;
@@ -473,14 +470,13 @@ void retex_edited_close(RetexEdited *e)
     *e = (RetexEdited){0};
 }
 
-int retex_edited_open(RetexEdited *e, const RetexSet *set, const RetexSamples *samples, RetexTexture *const *textures,
+int retex_edited_open(RetexEdited *e, const RetexSet *set, RetexTexture *const *textures,
                       const RetexCombineParams *params, RetexEditedSum of, int nthreads, RetexError *err)
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
     const RetexCombineParams given = params ? *params : defaults;
     *e = (RetexEdited){.of = of, .cross = given.cross, .common = {1, 1, 1}};
-    e->view = (RetexView){.set = set, .samples = samples, .textures = textures, .kept = given.kept,
-                          .columns = {0, set->width}};
+    e->view = (RetexView){.set = set, .textures = textures, .kept = given.kept, .columns = {0, set->width}};
     int code = check_params(e, given.parameters, err);
     if (code)
         return code;

@@ -18,7 +18,7 @@ typedef struct RetexEdited {
     int sum; /* the image that is the result, a VIEW_SUM */
     RetexEditedSum of;
     int cross;
-    char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
+    char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture */
     int picture;                               /* 1: part 0 is the result, and the sum is of nothing */
     int lamps;                                 /* 1: the set has terms of lamps */
     int lamp_pictures;                         /* 1: the lamps' pictures stand for all other terms */
@@ -27,10 +27,9 @@ typedef struct RetexEdited {
     int has_normals;                           /* 1: a target has a normal map */
 } RetexEdited;
 
-/* Open it with the terms that params select (NULL = defaults). Borrows set, samples and textures. */
-int retex_edited_open(RetexEdited *edited, const RetexSet *set, const RetexSamples *samples,
-                      RetexTexture *const *textures, const RetexCombineParams *params, RetexEditedSum of, int nthreads,
-                      RetexError *err);
+/* Open it with the terms that params select (NULL = defaults). Borrows set and textures. */
+int retex_edited_open(RetexEdited *edited, const RetexSet *set, RetexTexture *const *textures,
+                      const RetexCombineParams *params, RetexEditedSum of, int nthreads, RetexError *err);
 void retex_edited_close(RetexEdited *edited);
 
 /* What the lamps with these parameters have in common, in times of what they are kept with: the least. That much of all

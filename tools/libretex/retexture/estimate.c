@@ -17,7 +17,6 @@
 #include <stdlib.h>
 
 #include <retex/combine.h>
-#include <retex/samples.h>
 
 #include "base/params.h"
 #include "retexture/estimate_row.h"
@@ -111,9 +110,9 @@ static int estimate_strip(const void *context, RetexViewReader *reader, int y0, 
     return code;
 }
 
-int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
-                         RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexCombineParams *params,
-                         RetexRowSink *sink, void *context, int nthreads, RetexError *err)
+int retex_estimate_error(const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                         const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads,
+                         RetexError *err)
 {
     Estimate estimate = {.textures = textures};
     RetexCombineParams own = RETEX_COMBINE_INIT;
@@ -122,7 +121,7 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
     RetexRowSpan rows = {0, set->height};
     if (own.y1 > own.y0)
         rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
-    int code = retex_edited_open(&estimate.edited, set, samples, textures, &own, EDITED_TERMS, nthreads, err);
+    int code = retex_edited_open(&estimate.edited, set, textures, &own, EDITED_TERMS, nthreads, err);
     if (!code)
         code = retex_derivatives_open(&estimate.derivatives, &estimate.edited, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)

@@ -52,7 +52,7 @@ static int open_rows(StoredRows *rows, const RetexSet *set, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a row of the set");
     rows->mean = rows->light + 3 * width, rows->albedo = rows->mean + 3 * width;
     rows->weight = rows->albedo + 3 * width, rows->weights = rows->weight + 3 * width;
-    return retex_row_reader_open(&rows->reader, set, NULL, err);
+    return retex_row_reader_open(&rows->reader, set, err);
 }
 
 static void close_rows(StoredRows *rows)

@@ -5,19 +5,18 @@
 
 #include <retex/host/assert.h>
 
-#include "set/samples.h"
+#include "set/set.h"
 #include "texture/pyramid.h"
 
 /* ---- which targets have maps ---- */
 
-/* The finishes that a target's texture, or its samples, tell apart; 0: it has no map. */
+/* The finishes that a target's texture, or the one that is laid on it, tells apart; 0: it has no map. */
 static int count_mapped(const RetexView *view, int target)
 {
     const RetexTexture *texture = view->textures ? view->textures[target] : NULL;
     if (texture)
         return retex_texture_has_finishes(texture);
-    const int has_gates = view->samples && retex_samples_find(view->samples, target, -1, -1) >= 0;
-    return has_gates ? view->set->targets[target].nfinishes : 0;
+    return view->set->targets[target].gates ? view->set->targets[target].nfinishes : 0;
 }
 
 int retex_view_find_maps(RetexView *view, const float *parameters, RetexError *err)

@@ -47,7 +47,7 @@ void retex_view_reader_close(RetexViewReader *reader)
 int retex_view_reader_open(RetexViewReader *reader, const RetexView *view, RetexError *err)
 {
     *reader = (RetexViewReader){.view = view};
-    int code = retex_row_reader_open(&reader->set, view->set, view->samples, err);
+    int code = retex_row_reader_open(&reader->set, view->set, err);
     reader->rows = calloc((size_t)view->nimages + 1, sizeof *reader->rows);
     reader->weights = malloc(sizeof *reader->weights * 3 * (size_t)view->set->width);
     if (!code && (!reader->rows || !reader->weights))

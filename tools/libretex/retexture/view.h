@@ -11,15 +11,14 @@
 #define RETEX_RETEXTURE_VIEW_H
 
 #include <retex/combine.h>
-#include <retex/samples.h>
 
 #include "set/rows.h"
 
 /* How an image is made: what `index`, `finish` and `inputs` of RetexViewImage are. */
 typedef enum RetexViewKind {
     VIEW_PART,      /* part `index` of the set, one channel made three where the image has three */
-    VIEW_FOOTPRINT, /* what shows at footprint `index`: the texture filtered, its sample, or the original albedo; times
-                       the weight of `finish` if that is not negative */
+    VIEW_FOOTPRINT, /* what shows at footprint `index`: the texture, or what is laid on the set, or the original albedo;
+                       times the weight of `finish` if that is not negative */
     VIEW_MIXTURE,   /* the mean of the inputs by the weights of mixture `index`, share by share */
     VIEW_FURTHER,   /* RETEX_QUANTITY_FURTHER of the colours that input 0 is, and of the originals that input 1 is */
     VIEW_GATE_SUMS, /* of target `index`, at the image's scale: see view_gates.c */
@@ -61,8 +60,7 @@ struct RetexViewImage {
 
 typedef struct RetexView {
     const RetexSet *set;
-    const RetexSamples *samples;   /* or NULL */
-    RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
+    RetexTexture *const *textures; /* by target, or NULL; they replace what is laid on the set */
     RetexKeptSamples *const *kept; /* samples of these textures, by target, or NULL */
     RetexRowSpan columns;          /* outside of them rows of the picture's size may be 0 */
     int mapped[RETEX_MAX_TARGETS]; /* by target, the number of finishes that a map tells apart; 0: no map */
@@ -113,7 +111,7 @@ struct RetexViewRow {
 
 struct RetexViewReader {
     const RetexView *view;
-    RetexRowReader *set; /* rows of the set and of samples */
+    RetexRowReader *set; /* rows of the set */
     RetexViewRow *rows;  /* by image */
     float *weights;      /* of a mixture */
 };

@@ -11,7 +11,7 @@
 #include "retexture/sample_row.h"
 #include "retexture/view_rows.h"
 #include "set/parts.h"
-#include "set/samples.h"
+#include "set/set.h"
 #include "texture/pyramid.h"
 
 #define SPAN_PIXELS 1024 /* filtered in one call */
@@ -70,8 +70,7 @@ int retex_view_make_gates(RetexViewReader *reader, const RetexViewImage *image, 
     const int shown = view->shown[image->index];
     float *rgb = own->buffer.values;
     if (!view->textures || !view->textures[image->index])
-        return retex_row_reader_sample(reader->set, retex_samples_find(view->samples, image->index, -1, -1), y,
-                                       &own->row, err);
+        return retex_row_reader_get(reader->set, view->set->targets[image->index].gates - 1, y, &own->row, err);
     const float *sums[VIEW_INPUTS_MAX];
     int code = RETEX_OK;
     for (int i = 0; i < image->ninputs && !code; i++)

@@ -11,7 +11,7 @@
 #include "retexture/kept_samples.h"
 #include "retexture/mixture_kernel.h"
 #include "retexture/sample_row.h"
-#include "set/samples.h"
+#include "set/set.h"
 #include "texture/pyramid.h"
 
 #define SPAN_PIXELS 512 /* the sum and one span of each image fit the first two levels of cache */
@@ -130,12 +130,10 @@ int retex_view_make_footprint(RetexViewReader *reader, const RetexViewImage *ima
     const RetexTexture *texture = texture_of(view->textures ? view->textures[f->target] : NULL, finish);
     if (texture)
         return filter_or_find_row(reader, image, texture, own, y, err);
-    if (!view->samples || !retex_samples_have(view->samples, footprint))
-        return retex_row_reader_get_span(reader->set, f->albedo, y, &own->row, &own->span, err);
-    const int sample = finish < 0 ? footprint : retex_samples_find(view->samples, f->target, footprint, finish);
-    if (sample < 0)
+    const int part = !f->sampled ? f->albedo : finish < 0 ? f->sampled - 1 : f->finished[finish] - 1;
+    if (part < 0)
         return retex_fail(err, RETEX_EFORMAT, "the samples lack footprint %d with finish %d", footprint, finish);
-    return retex_row_reader_sample(reader->set, sample, y, &own->row, err);
+    return retex_row_reader_get_span(reader->set, part, y, &own->row, &own->span, err);
 }
 
 /* ---- mixtures, and further hits ---- */

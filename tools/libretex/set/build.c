@@ -42,14 +42,13 @@ void retex_set_close(RetexSet **result)
 
     if (!set)
         return;
-    for (int i = 0; i < set->nparts; i++)
+    for (int i = 0; i < set->nparts; i++) {
         retex_image_free(&set->parts[i].image);
+        retex_part_set_source(&set->parts[i], NULL, 0);
+    }
     free(set->parts);
     free(set->footprints);
     free(set->terms);
-    retex_band_store_close(&set->store);
-    if (set->source)
-        set->source->close(set->source);
     free(set);
     *result = NULL;
 }
@@ -80,7 +79,8 @@ void retex_set_get_info(const RetexSet *set, RetexSetInfo *info)
                         .further_hits = set->further_hits,
                         .unit = set->unit,
                         .depth_cut = set->depth_cut,
-                        .exposure = set->exposure};
+                        .exposure = set->exposure,
+                        .is_samples = set->is_samples};
     memcpy(own.further_ratio, set->further_ratio, sizeof own.further_ratio);
     (void)RETEX_PARAMS_RETURN(info, &own, NULL);
 }
@@ -163,12 +163,6 @@ RetexImage *retex_set_mutable_image(RetexSet *set, int part)
     return &set->parts[part].image;
 }
 
-void retex_set_take_store(RetexSet *set, RetexBandStore *store)
-{
-    retex_band_store_close(&set->store);
-    set->store = store;
-}
-
 /* Grows an array by one element. It grows to the next power of two, so that most calls move nothing, whoever allocated
  * the array. */
 static int grow_array(void **array, int count, size_t element, int most, const char *what, RetexError *err)
@@ -186,7 +180,7 @@ static int grow_array(void **array, int count, size_t element, int most, const c
     return 0;
 }
 
-/* Appends a part without pixels. */
+/* Appends a part without pixels, which is not counted yet. */
 static int describe_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width,
                          int height, RetexPart **result, RetexError *err)
 {
@@ -233,19 +227,40 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
     return 0;
 }
 
+int retex_set_add_absent(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width,
+                         int height, int *index, RetexError *err)
+{
+    RetexPart *part;
+    const int code = describe_part(set, name, letters, type, width, height, &part, err);
+    if (!code)
+        *index = set->nparts++;
+    return code;
+}
+
 int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                          int *index, RetexError *err)
 {
-    RetexPart *part;
-    const int code = describe_part(set, name, letters, type, 0, 0, &part, err);
-
+    int part;
+    const int code = retex_set_add_absent(set, name, letters, type, 0, 0, &part, err);
     if (code)
         return code;
-    part->store_image = image + 1;
+    set->parts[part].source_part = image;
     if (index)
-        *index = set->nparts;
-    set->nparts++;
-    return 0;
+        *index = part;
+    return RETEX_OK;
+}
+
+int retex_set_take_store(RetexSet *set, RetexBandStore *store, RetexError *err)
+{
+    RetexSetSource *source;
+    const int code = store ? retex_store_source_open(&source, store, err) : RETEX_OK;
+    if (code || !store)
+        return code;
+    for (int i = 0; i < set->nparts; i++)
+        if (!set->parts[i].image.pixels && !set->parts[i].source)
+            retex_part_set_source(&set->parts[i], source, set->parts[i].source_part);
+    retex_source_release(&source);
+    return RETEX_OK;
 }
 
 static void move_up(void *context, RetexPartUse use, int user, int *part)
@@ -257,6 +272,7 @@ static void move_up(void *context, RetexPartUse use, int user, int *part)
 void retex_set_remove_part(RetexSet *set, int part)
 {
     retex_image_free(&set->parts[part].image);
+    retex_part_set_source(&set->parts[part], NULL, 0);
     memmove(&set->parts[part], &set->parts[part + 1], sizeof *set->parts * (size_t)(--set->nparts - part));
     retex_set_visit_parts(set, move_up, &part);
 }
@@ -517,10 +533,10 @@ int retex_set_scale(const RetexSet *set, const RetexImage *image)
 int retex_set_footprint_scale(const RetexSet *set, int footprint)
 {
     const RetexFootprint *f = &set->footprints[footprint];
-    const int parts[] = {f->uv, f->spread, f->albedo};
+    const int parts[] = {f->uv, f->spread, f->albedo, f->sampled - 1};
     int scale = 0;
 
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         if (parts[k] < 0)
             continue;
         const int own = retex_set_scale(set, &set->parts[parts[k]].image);
@@ -536,7 +552,8 @@ static void find_color(void *context, RetexPartUse use, int user, int *part)
     int *wanted = context; /* the part, and whether it is one of colours */
     (void)user;
     if (*part == wanted[0])
-        wanted[1] |= use == RETEX_PART_RADIANCE || use == RETEX_PART_ALBEDO || use == RETEX_PART_ORIGINAL;
+        wanted[1] |= use == RETEX_PART_RADIANCE || use == RETEX_PART_ALBEDO || use == RETEX_PART_ORIGINAL ||
+                     use == RETEX_PART_LAID;
 }
 
 int retex_set_part_is_color(const RetexSet *set, int part)

@@ -19,7 +19,6 @@ typedef struct ExrSource {
     RetexExrPlan *plans;  /* by part, as are: */
     atomic_char *checked; /* 1: the whole part has been compared with its checksum, where bands have none */
     pthread_mutex_t checking;
-    int holders;
 } ExrSource;
 
 /* Some rows of one part. */
@@ -44,8 +43,6 @@ static int no_memory(const ExrSource *source, RetexError *err)
 static void source_close(RetexSetSource *methods)
 {
     ExrSource *source = (ExrSource *)(void *)methods;
-    if (--source->holders)
-        return;
     for (int i = 0; source->plans && i < source->parts.count; i++)
         retex_exr_plan_close(&source->plans[i]);
     free(source->plans);
@@ -256,7 +253,7 @@ static int open_plans(ExrSource *source, RetexError *err)
 
 int retex_exr_source_open(RetexSetSource **result, const RetexExrSourceParts *parts, RetexError *err)
 {
-    static const RetexSetSource methods = {source_close, reader_open, reader_close, read_row, stored};
+    static const RetexSetSource methods = {source_close, reader_open, reader_close, read_row, stored, 1};
     ExrSource *source = calloc(1, sizeof *source);
     *result = NULL;
     if (!source) {
@@ -269,19 +266,11 @@ int retex_exr_source_open(RetexSetSource **result, const RetexExrSourceParts *pa
     }
     source->methods = methods;
     source->parts = *parts;
-    source->holders = 1;
     pthread_mutex_init(&source->checking, NULL);
     const int code = open_plans(source, err);
     if (code)
-        source_close(&source->methods);
+        source_close(&source->methods); /* no part has it yet */
     else
         *result = &source->methods;
     return code;
-}
-
-RetexSetSource *retex_exr_source_retain(RetexSetSource *methods)
-{
-    ExrSource *source = (ExrSource *)(void *)methods;
-    source->holders++;
-    return methods;
 }

@@ -1,4 +1,4 @@
-/* An open EXR file as the source of a set's parts, and of samples. Private to libretex. */
+/* An open EXR file as the source of a set's parts. Private to libretex. */
 #ifndef RETEX_SET_EXR_SOURCE_H
 #define RETEX_SET_EXR_SOURCE_H
 
@@ -20,7 +20,5 @@ typedef struct RetexExrSourceParts {
 
 /* Open a source. Takes ownership of exr, input, requests and sums, whatever it returns. */
 int retex_exr_source_open(RetexSetSource **source, const RetexExrSourceParts *parts, RetexError *err);
-/* Add a reference to a source, which is closed for good when each owner has closed it. */
-RetexSetSource *retex_exr_source_retain(RetexSetSource *source);
 
 #endif

@@ -1,8 +1,6 @@
-/* Loads sets and samples into memory, from the band store or the source. */
+/* Loads sets into memory, from the sources of their parts. */
 #include <stdlib.h>
 #include <string.h>
-#include <retex/host/band_store.h>
-#include <retex/samples.h>
 #include <retex/set_file.h>
 
 #include "set/transfer.h"
@@ -10,53 +8,30 @@
 #include "set/references.h"
 #include "set/source.h"
 
-/* Loads those of the wanted images that have no pixels; on failure none is loaded. */
-static int load(RetexImage *const *wanted, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
-                RetexError *err)
+/* Loads those of the wanted parts that have no pixels; on failure none is loaded. */
+static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
 {
-    RetexImage *loaded = calloc((size_t)count + 1, sizeof *loaded);
-    RetexImageTransfer *images = calloc((size_t)count + 1, sizeof *images);
+    RetexImage *loaded = calloc((size_t)set->nparts + 1, sizeof *loaded);
+    RetexImageTransfer *images = calloc((size_t)set->nparts + 1, sizeof *images);
     int missing = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
 
-    for (int i = 0; !code && i < count; i++) {
-        const RetexImage *shape = wanted[i];
-        if (!shape || shape->pixels)
+    for (int i = 0; !code && i < set->nparts; i++) {
+        const RetexImage *shape = &set->parts[i].image;
+        if (!wanted[i] || shape->pixels)
             continue;
-        images[missing++] = (RetexImageTransfer){.part = set ? i : -1, .footprint = set ? -1 : i, .image = &loaded[i]};
+        images[missing++] = (RetexImageTransfer){.part = i, .image = &loaded[i]};
         code = retex_image_alloc(&loaded[i], shape->width, shape->height, shape->channels, err);
     }
     if (!code)
-        code = retex_transfer_images(images, missing, set, samples, NULL, nthreads, err);
-    for (int i = 0; loaded && i < count; i++)
+        code = retex_transfer_images(images, missing, set, NULL, nthreads, err);
+    for (int i = 0; loaded && i < set->nparts; i++)
         if (code)
             retex_image_free(&loaded[i]);
         else if (loaded[i].pixels)
-            *wanted[i] = loaded[i];
+            set->parts[i].image = loaded[i];
     free(loaded);
     free(images);
     return code;
-}
-
-static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
-{
-    RetexImage *images[RETEX_SET_PARTS_MAX];
-
-    for (int i = 0; i < set->nparts; i++)
-        images[i] = wanted[i] ? &set->parts[i].image : NULL;
-    const int code = load(images, set->nparts, set, NULL, nthreads, err);
-    for (int i = 0; !code && i < set->nparts; i++)
-        if (wanted[i])
-            set->parts[i].store_image = 0;
-    return code;
-}
-
-/* Closes the band store and the source. */
-static void close_stores(RetexBandStore **store, RetexSetSource **source)
-{
-    retex_band_store_close(store);
-    if (*source)
-        (*source)->close(*source);
-    *source = NULL;
 }
 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
@@ -70,27 +45,9 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     wanted[0] = 1;
     if (!code)
         code = load_parts(set, wanted, nthreads, err);
-    if (!code)
-        close_stores(&set->store, &set->source);
+    for (int i = 0; i < set->nparts && !code; i++)
+        retex_part_set_source(&set->parts[i], NULL, 0);
     return code;
-}
-
-int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
-{
-    RetexImage **images = calloc((size_t)samples->nimages + 1, sizeof *images);
-
-    if (!images)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int i = 0; i < samples->nimages; i++)
-        images[i] = retex_samples_have(samples, i) ? &samples->images[i] : NULL;
-    const int code = load(images, samples->nimages, NULL, samples, nthreads, err);
-    free(images);
-    if (code)
-        return code;
-    for (int i = 0; i < samples->nimages; i++)
-        samples->footprints[i].store_image = samples->footprints[i].source_image = 0;
-    close_stores(&samples->store, &samples->source);
-    return 0;
 }
 
 static uint64_t image_bytes(const RetexImage *image)
@@ -141,16 +98,9 @@ uint64_t retex_set_preload_bytes(const RetexSet *set, const int *corrected)
     return list_read_parts(set, corrected, wanted);
 }
 
-int retex_set_preload(RetexSet *set, RetexSamples *samples, const int *corrected, uint64_t most_bytes, int nthreads,
-                      RetexError *err)
+int retex_set_preload(RetexSet *set, const int *corrected, uint64_t most_bytes, int nthreads, RetexError *err)
 {
     char wanted[RETEX_SET_PARTS_MAX];
-    const uint64_t of_set = list_read_parts(set, corrected, wanted);
-    const uint64_t left = of_set > most_bytes ? most_bytes : most_bytes - of_set;
-    uint64_t of_samples = 0;
-    int code = of_set > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);
-
-    for (int i = 0; samples && i < samples->nimages; i++)
-        of_samples += image_bytes(&samples->images[i]);
-    return code || !samples || of_samples > left ? code : retex_samples_load(samples, nthreads, err);
+    const uint64_t bytes = list_read_parts(set, corrected, wanted);
+    return bytes > most_bytes ? RETEX_OK : load_parts(set, wanted, nthreads, err);
 }

@@ -1,4 +1,4 @@
-/* Writes the manifest: RetexSet and RetexSamples as JSON. Parts are referred to by name, so that a file keeps its
+/* Writes the manifest: a RetexSet as JSON. Parts are referred to by name, so that a file keeps its
  * meaning when parts are reordered, added or removed. */
 #include <math.h>
 #include <stdio.h>
@@ -6,43 +6,10 @@
 #include <string.h>
 #include <jansson.h>
 #include <retex/host/band_store.h>
-#include <retex/samples.h>
 #include <retex/set_file.h>
 
 #include "base/json_write.h"
 #include "set/manifest.h"
-
-static int name_is_taken(const char *name, const RetexSet *set, const RetexSamplePart *parts, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (strcmp(parts[i].name, name) == 0)
-            return 1;
-    return set && retex_set_find_part(set, name) >= 0;
-}
-
-void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts)
-{
-    for (int i = 0; i < samples->nimages; i++) {
-        char target[RETEX_NAME_MAX], *name = parts[i].name;
-        parts[i].crc = 0;
-        name[0] = 0;
-        if (!retex_samples_have(samples, i))
-            continue;
-        /* names of targets are free, names of parts are not */
-        snprintf(target, sizeof target, "%s", samples->target_names[samples->footprints[i].target]);
-        for (char *letter = target; *letter; letter++)
-            if (!retex_name_is_valid((char[]){*letter, 0}))
-                *letter = '_';
-        const RetexSampleFootprint *of = &samples->footprints[i];
-        if (of->finish >= 0)
-            snprintf(target + strlen(target), sizeof target - strlen(target), "_finish%d", of->finish);
-        else if (of->footprint < 0)
-            snprintf(target + strlen(target), sizeof target - strlen(target), "_gate");
-        snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprints[i].hit);
-        for (int number = 2; name_is_taken(name, set, parts, i); number++)
-            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprints[i].hit, number);
-    }
-}
 
 /* A JSON string of any bytes: text that is not UTF-8 loses its bytes above 127, which JSON cannot hold. */
 static json_t *text(const char *bytes)
@@ -105,6 +72,10 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
         if (target->normal_tilt > 0)
             retex_json_put(&json, "normal_tilt", real(target->normal_tilt, finite));
     }
+    if (target->texture[0])
+        retex_json_put(&json, "texture", text(target->texture));
+    if (target->gates)
+        retex_json_put(&json, "gates", part_name(set, target->gates - 1));
     return json;
 }
 
@@ -118,6 +89,15 @@ static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footpr
 
     if (has_axes && footprint->quadrant)
         retex_json_put(&json, "quadrant", json_integer(footprint->quadrant));
+    if (footprint->sampled)
+        retex_json_put(&json, "sampled", part_name(set, footprint->sampled - 1));
+    json_t *finished = json_array();
+    for (int k = 0; k < RETEX_FINISHES_MAX && footprint->finished[k]; k++)
+        retex_json_add(&finished, part_name(set, footprint->finished[k] - 1));
+    if (json_array_size(finished))
+        retex_json_put(&json, "finished", finished);
+    else
+        json_decref(finished);
     return json;
 }
 
@@ -204,23 +184,18 @@ static json_t *write_bands(const uint32_t *bands, int height)
 }
 
 /* bands: the checksums of the part's bands, or NULL. */
-static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
-                          uint32_t crc, const uint32_t *bands)
+static json_t *write_part(const RetexPart *part, const uint32_t *bands)
 {
+    const RetexImage *image = &part->image;
     char hex[16];
 
-    snprintf(hex, sizeof hex, "%08x", (unsigned)crc);
-    json_t *json =
-        json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
-                  type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32", hex);
+    snprintf(hex, sizeof hex, "%08x", (unsigned)part->crc);
+    json_t *json = json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", part->name, "letters", part->letters, "type",
+                             part->type == RETEX_HALF ? "half" : "float", "width", image->width, "height",
+                             image->height, "crc32", hex);
     if (bands)
         retex_json_put(&json, "bands", write_bands(bands, image->height));
     return json;
-}
-
-static const uint32_t *bands_of(const RetexBandSums *sums, int index)
-{
-    return sums && index < sums->count ? sums->of[index] : NULL;
 }
 
 static json_t *write_further(const RetexSet *set, int *finite)
@@ -250,11 +225,8 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
         retex_json_add(&footprints, write_footprint(set, &set->footprints[i]));
     for (int i = 0; i < set->nterms; i++)
         retex_json_add(&terms, write_term(set, &set->terms[i], finite));
-    for (int i = 0; i < set->nparts; i++) {
-        const RetexPart *part = &set->parts[i];
-        retex_json_add(&parts,
-                       write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
-    }
+    for (int i = 0; i < set->nparts; i++)
+        retex_json_add(&parts, write_part(&set->parts[i], sums && i < sums->count ? sums->of[i] : NULL));
     for (int i = 0; i < set->nmixtures; i++)
         retex_json_add(&mixtures, write_mixture(set, &set->mixtures[i]));
     for (int i = 0; i < set->nparameters; i++)
@@ -286,53 +258,21 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "parameters", parameters);
     retex_json_put(root, "terms", terms);
     retex_json_put(root, "parts", parts);
+    if (set->is_samples && set->refers.path[0])
+        retex_json_put(root, "set",
+                       json_pack("{s:o, s:I, s:o}", "path", text(set->refers.path), "bytes",
+                                 (json_int_t)set->refers.bytes, "crc32", identity(set->refers.crc)));
 }
 
-/* first: index of the samples' first image in sums. */
-static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts, const RetexBandSums *sums,
-                             int first, int with_reference)
-{
-    json_t *targets = json_array(), *images = json_array();
-
-    for (int i = 0; i < samples->ntargets; i++)
-        retex_json_add(&targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
-                                           text(samples->textures[i])));
-    for (int i = 0; i < samples->nimages; i++) {
-        json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
-                                                     parts[i].crc, bands_of(sums, first + i))
-                                        : json_null();
-        const RetexSampleFootprint *of = &samples->footprints[i];
-        json_t *image = json_pack("{s:i, s:i, s:o}", "target", of->target, "hit", of->hit, "part", part);
-        if (i >= samples->nfootprints)
-            retex_json_put(&image, "footprint", json_integer(of->footprint));
-        if (of->finish >= 0)
-            retex_json_put(&image, "finish", json_integer(of->finish));
-        retex_json_add(&images, image);
-    }
-    json_t *json =
-        json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
-    if (samples->refers.path[0] && with_reference)
-        retex_json_put(&json, "set",
-                       json_pack("{s:o, s:I, s:o}", "path", text(samples->refers.path), "bytes",
-                                 (json_int_t)samples->refers.bytes, "crc32", identity(samples->refers.crc)));
-    return json;
-}
-
-int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
-                         const RetexBandSums *sums, char **json, RetexError *err)
+int retex_manifest_write(const RetexSet *set, const RetexBandSums *sums, char **json, RetexError *err)
 {
     int finite = 1;
     json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_FORMAT_VERSION, "crc32", "00000000", "kind",
-                             !samples ? "set"
-                             : !set   ? "samples"
-                                      : "stream",
-                             "width", set ? set->width : samples->width, "height", set ? set->height : samples->height);
+                             set->is_samples ? "samples" : "set", "width", set->width, "height", set->height);
 
     *json = NULL;
-    if (root && set)
+    if (root)
         write_set(&root, set, sums, &finite);
-    if (root && samples)
-        retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0, !set));
     const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
     char *dumped = root && finite ? retex_json_text(root, style) : NULL;
     json_decref(root);
@@ -345,23 +285,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
     return 0;
 }
 
-int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err)
+int retex_set_manifest(const RetexSet *set, char **json, RetexError *err)
 {
-    RetexSamplePart *parts = NULL;
-
-    *json = NULL;
-    if (!set && !samples)
-        return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to describe");
-    if (samples) {
-        const int code = retex_samples_are_sound(samples, err);
-        if (code)
-            return code;
-        parts = calloc((size_t)samples->nimages + 1, sizeof *parts);
-        if (!parts)
-            return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
-        retex_sample_part_names(samples, set, parts);
-    }
-    const int code = retex_manifest_write(set, samples, parts, NULL, json, err);
-    free(parts);
-    return code;
+    return retex_manifest_write(set, NULL, json, err);
 }

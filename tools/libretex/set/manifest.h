@@ -3,28 +3,14 @@
 #define RETEX_SET_MANIFEST_H
 
 #include "base/part_name.h"
-#include "set/samples.h"
+#include "set/set.h"
 
-enum {
-    RETEX_SET_TERMS_MAX = 4096,
-    RETEX_SAMPLE_NAME_MAX = 192     /* bytes of a sample part's name, with the final NUL */
-};
+enum { RETEX_SET_TERMS_MAX = 4096 };
 
 #define RETEX_MANIFEST_ATTRIBUTE "retex" /* name of the attribute of an EXR file's first part that holds the manifest */
 
-
-/* One of the samples' parts in the manifest. */
-typedef struct RetexSamplePart {
-    char name[RETEX_SAMPLE_NAME_MAX]; /* "" where the footprint's target keeps its original */
-    uint32_t crc;
-} RetexSamplePart;
-
-/* Choose names for the samples' parts, unique among themselves and the set's parts (set may be NULL). parts has nimages
- * elements. */
-void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts);
-
 /* Checksums of bands in the manifest: for each band of RETEX_BAND_ROWS rows the CRC-32 of its samples, computed as
- * RetexPart.crc is. of[i] is that of part i of the set, then of the samples' images; NULL where it is not known. */
+ * RetexPart.crc is. of[i] is that of part i of the set; NULL where it is not known. */
 typedef struct RetexBandSums {
     int count;
     uint32_t **of;
@@ -32,9 +18,8 @@ typedef struct RetexBandSums {
 
 void retex_band_sums_free(RetexBandSums *sums);
 
-/* Like retex_set_manifest, with names and checksums of the samples' parts, and checksums of bands (or NULL). */
-int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
-                         const RetexBandSums *sums, char **json, RetexError *err);
+/* Like retex_set_manifest, with checksums of bands (or NULL). */
+int retex_manifest_write(const RetexSet *set, const RetexBandSums *sums, char **json, RetexError *err);
 
 /* The manifest's checksum of itself. Its text begins {"retex":VERSION,"crc32":"DIGITS", and the eight hexadecimal
  * digits are the CRC-32 of all of it with 0s in their place. */
@@ -44,10 +29,8 @@ RetexManifestSum retex_manifest_sum(const char *json); /* RETEX_MANIFEST_UNSEALE
 uint32_t retex_manifest_own_sum(const char *json);     /* of a text that has it */
 void retex_manifest_seal(char *json);                  /* fill in the checksum, where the text has a place for it */
 
-/* Parse a manifest. *set and *samples are created without pixels: their parts, and those images of *samples that
- * sample_parts names, have width, height and channels. sample_parts is allocated, to be freed with free(). Whatever the
- * manifest does not describe is NULL. name: the file, for messages. sums (or NULL) is filled, to be freed. */
-int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
-                        RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err);
+/* Parse a manifest. *set is created without pixels: its parts have width, height and channels. name: the file, for
+ * messages. sums (or NULL) is filled, to be freed. */
+int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexBandSums *sums, RetexError *err);
 
 #endif

@@ -11,6 +11,7 @@
 
 #include "set/manifest_fields.h"
 #include "set/parts.h"
+#include "set/references.h"
 
 static void get_pair(Reading *reading, const json_t *object, const char *key, double out[2])
 {
@@ -54,7 +55,7 @@ static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
     return bands;
 }
 
-/* Reads the checksums of the bands of the next part or sample image; part: its description, or null. */
+/* Reads the checksums of the bands of the next part. */
 static void read_bands(Reading *reading, const json_t *part, int height)
 {
     const json_t *json = json_object_get(part, "bands");
@@ -71,11 +72,11 @@ void retex_band_sums_free(RetexBandSums *sums)
     *sums = (RetexBandSums){0};
 }
 
-static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_size)
+static void read_part(Reading *reading, const json_t *json, RetexPart *part)
 {
     char type[8] = "", hex[16] = "", *end = hex;
 
-    retex_reading_text(reading, json, "name", name, name_size);
+    retex_reading_text(reading, json, "name", part->name, sizeof part->name);
     retex_reading_text(reading, json, "letters", part->letters, sizeof part->letters);
     retex_reading_text(reading, json, "type", type, sizeof type);
     retex_reading_text(reading, json, "crc32", hex, sizeof hex);
@@ -86,7 +87,7 @@ static void read_part(Reading *reading, const json_t *json, RetexPart *part, cha
     part->image.channels = (int)strlen(part->letters);
     part->crc = (uint32_t)strtoul(hex, &end, 16);
     if (strlen(hex) != 8 || *end || hex[0] == '+' || hex[0] == '-')
-        retex_reading_fail(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", part->name);
     part->type = strcmp(type, "float") == 0 ? RETEX_FLOAT : RETEX_HALF;
     if (part->type == RETEX_HALF && strcmp(type, "half") != 0)
         retex_reading_fail(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
@@ -97,14 +98,14 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
     const json_t *array = retex_reading_array(reading, root, "parts", RETEX_SET_PARTS_MAX);
     const size_t count = json_array_size(array);
 
-    if (count == 0)
+    if (count == 0 && !set->is_samples)
         retex_reading_fail(reading, RETEX_EFORMAT, "lists no parts");
     set->parts = calloc(count ? count : 1, sizeof *set->parts);
     if (!set->parts)
         retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
     for (size_t i = 0; i < count && !reading->code; i++) {
         RetexPart *part = &set->parts[i];
-        read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
+        read_part(reading, json_array_get(array, i), part);
         read_bands(reading, json_array_get(array, i), part->image.height);
         if (reading->code)
             return;
@@ -114,7 +115,7 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
             retex_reading_fail(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
         set->nparts = (int)i + 1;
     }
-    if (!reading->code) {
+    if (!reading->code && !set->is_samples) {
         retex_reading_check_size(reading, set, 0, "parts");
         if (strcmp(set->parts[0].letters, "RGB") != 0)
             retex_reading_fail(reading, RETEX_EFORMAT, "has a first part that is no picture");
@@ -175,6 +176,33 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
     target->original = name ? retex_set_find_part(set, name) : -1;
     if (target->original < 0 && !json_is_null(original))
         retex_reading_fail(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
+    if (json_object_get(json, "texture"))
+        retex_reading_text(reading, json, "texture", target->texture, sizeof target->texture);
+    if (json_object_get(json, "gates"))
+        target->gates = 1 + retex_reading_part(reading, set, json, "gates", 3, 0);
+    retex_reading_check_size(reading, set, target->gates - 1, "gates");
+}
+
+/* What the texture shows that is laid on a footprint's target. */
+static void read_laid(Reading *reading, const json_t *json, const RetexSet *set, RetexFootprint *footprint)
+{
+    const json_t *finished = json_object_get(json, "finished");
+    const int count =
+        finished ? (int)json_array_size(retex_reading_array(reading, json, "finished", RETEX_FINISHES_MAX)) : 0;
+    if (json_object_get(json, "sampled"))
+        footprint->sampled = 1 + retex_reading_part(reading, set, json, "sampled", 3, 0);
+    retex_reading_check_scale(reading, set, footprint->sampled - 1, "sampled");
+    for (int k = 0; k < count && !reading->code; k++) {
+        const char *name = json_string_value(json_array_get(finished, (size_t)k));
+        const int part = name ? retex_set_find_part(set, name) : -1;
+        if (part < 0 || set->parts[part].image.channels != 3 || !footprint->sampled ||
+            retex_set_scale(set, &set->parts[part].image) !=
+                retex_set_scale(set, &set->parts[footprint->sampled - 1].image))
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
+        footprint->finished[k] = 1 + part;
+    }
+    if (!reading->code && count && count != set->targets[footprint->target].nfinishes)
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a footprint with other finishes than its target");
 }
 
 static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
@@ -210,6 +238,7 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         retex_reading_check_scale(reading, set, footprint.uv, "uv");
         retex_reading_check_scale(reading, set, footprint.spread, "spread");
         retex_reading_check_scale(reading, set, footprint.albedo, "albedo");
+        read_laid(reading, json, set, &footprint);
         if (!reading->code)
             reading->code = retex_set_add_footprint(set, &footprint, NULL, reading->err);
         if (!reading->code && !retex_set_footprint_scale(set, set->nfootprints - 1))
@@ -233,9 +262,7 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
         if (reading->code)
             return;
         const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
-        const RetexFootprint *f = &set->footprints[mixture.shares[i].footprint];
-        const int sampled = f->uv < 0 && f->spread < 0; /* in a stream */
-        if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
+        if (scale != retex_set_footprint_scale(set, mixture.shares[i].footprint) ||
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }
@@ -278,7 +305,48 @@ static void read_further_hits(Reading *reading, const json_t *json, RetexSet *se
     }
 }
 
-static void read_set(Reading *reading, const json_t *root, int width, int height, RetexSet **result)
+/* How often a part is referred to, and whether a texture that is laid on the set has it. */
+typedef struct PartUses {
+    int count, is_laid;
+} PartUses;
+
+static void count_use(void *context, RetexPartUse use, int user, int *part)
+{
+    PartUses *uses = context;
+    (void)user;
+    uses[*part].count++;
+    uses[*part].is_laid |= use == RETEX_PART_LAID || use == RETEX_PART_GATES;
+}
+
+/* Parts of textures leave the set when these do, so nothing else may have them. */
+static void check_laid(Reading *reading, const RetexSet *set)
+{
+    PartUses *uses = calloc((size_t)set->nparts + 1, sizeof *uses);
+    if (!uses) {
+        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
+        return;
+    }
+    retex_set_visit_const_parts(set, count_use, uses);
+    for (int i = 0; i < set->nparts && !reading->code; i++)
+        if (uses[i].is_laid ? uses[i].count > 1 || (i == 0 && !set->is_samples) || set->parts[i].type != RETEX_FLOAT
+                            : set->is_samples)
+            retex_reading_fail(reading, RETEX_EFORMAT, "has textures' part \"%.64s\", which is used as another one",
+                               set->parts[i].name);
+    free(uses);
+}
+
+static void read_reference(Reading *reading, const json_t *json, RetexSetReference *reference)
+{
+    const json_int_t bytes = json_integer_value(json_object_get(json, "bytes"));
+
+    retex_reading_text(reading, json, "path", reference->path, sizeof reference->path);
+    reference->crc = get_identity(reading, json, "crc32");
+    reference->bytes = bytes > 0 ? (uint64_t)bytes : 0;
+    if (!reading->code && (reference->path[0] != '/' || !reference->bytes))
+        retex_reading_fail(reading, RETEX_EFORMAT, "refers to a set without an absolute path or a size");
+}
+
+static void read_set(Reading *reading, const json_t *root, int is_samples, RetexSet **result)
 {
     RetexSet *set = calloc(1, sizeof *set);
     const json_t *seed = json_object_get(root, "seed");
@@ -288,8 +356,11 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
         retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
-    set->width = width;
-    set->height = height;
+    set->is_samples = is_samples;
+    set->width = retex_reading_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
+    set->height = retex_reading_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
+    if (reading->code)
+        return;
     retex_reading_text(reading, root, "layout", set->layout, sizeof set->layout);
     retex_reading_text(reading, root, "filter", set->filter, sizeof set->filter);
     retex_reading_text(reading, root, "scene", set->scene, sizeof set->scene);
@@ -326,89 +397,10 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
         read_mixtures(reading, root, set);
     if (!reading->code)
         retex_reading_terms(reading, root, set);
-}
-
-/* What an image beyond those of footprints' colours is of. */
-static void read_sample_use(Reading *reading, const json_t *json, RetexSamples *samples, int index)
-{
-    RetexSampleFootprint *of = &samples->footprints[index];
-    if (!json_object_get(json, "footprint")) {
-        if (index > samples->nfootprints)
-            retex_reading_fail(reading, RETEX_EFORMAT, "has sample images out of order");
-        samples->nfootprints = index + 1;
-        return;
-    }
-    of->footprint = retex_reading_integer(reading, json, "footprint", -1, samples->nfootprints - 1);
-    of->finish = of->footprint >= 0 ? retex_reading_integer(reading, json, "finish", 0, RETEX_FINISHES_MAX - 1) : -1;
-    if (json_is_null(json_object_get(json, "part")))
-        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image without pixels");
-}
-
-static void read_sample_image(Reading *reading, const json_t *json, RetexSamples *samples, int index,
-                              RetexSamplePart *parts)
-{
-    const json_t *json_part = json_object_get(json, "part");
-    RetexPart part = {.crc = 0};
-
-    samples->footprints[index].target = retex_reading_integer(reading, json, "target", 0, samples->ntargets - 1);
-    samples->footprints[index].hit = retex_reading_integer(reading, json, "hit", 1, 1 << 20);
-    read_sample_use(reading, json, samples, index);
-    if (json_is_null(json_part))
-        read_bands(reading, json_part, 0);
-    if (json_is_null(json_part) || reading->code)
-        return;
-    read_part(reading, json_part, &part, parts[index].name, sizeof parts[index].name);
-    read_bands(reading, json_part, part.image.height);
-    if (!reading->code && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
-                             part.image.width > samples->width || part.image.height > samples->height))
-        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
-    if (!reading->code && !parts[index].name[0])
-        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image without a name");
-    for (int i = 0; i < index; i++)
-        if (parts[index].name[0] && strcmp(parts[i].name, parts[index].name) == 0)
-            retex_reading_fail(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
-    parts[index].crc = part.crc;
-    samples->images[index] = part.image;
-}
-
-static void read_reference(Reading *reading, const json_t *json, RetexSetReference *reference)
-{
-    const json_int_t bytes = json_integer_value(json_object_get(json, "bytes"));
-
-    retex_reading_text(reading, json, "path", reference->path, sizeof reference->path);
-    reference->crc = get_identity(reading, json, "crc32");
-    reference->bytes = bytes > 0 ? (uint64_t)bytes : 0;
-    if (!reading->code && (reference->path[0] != '/' || !reference->bytes))
-        retex_reading_fail(reading, RETEX_EFORMAT, "refers to a set without an absolute path or a size");
-}
-
-static void read_samples(Reading *reading, const json_t *json, int width, int height, RetexSamples **result,
-                         RetexSamplePart **parts)
-{
-    const json_t *targets = retex_reading_array(reading, json, "targets", RETEX_MAX_TARGETS);
-    const json_t *images = retex_reading_array(reading, json, "images", RETEX_SAMPLE_IMAGES_MAX);
-    const size_t count = json_array_size(images);
-
-    *parts = calloc(count + 1, sizeof **parts);
-    if (!*parts || retex_samples_alloc(result, (int)count, NULL)) {
-        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
-        return;
-    }
-    RetexSamples *samples = *result;
-    samples->width = width;
-    samples->height = height;
-    samples->nfootprints = 0; /* counted while they are read */
-    samples->set_id = get_identity(reading, json, "set_id");
-    if (json_object_get(json, "set"))
-        read_reference(reading, json_object_get(json, "set"), &samples->refers);
-    samples->ntargets = (int)json_array_size(targets);
-    for (int i = 0; i < samples->ntargets; i++) {
-        const json_t *target = json_array_get(targets, (size_t)i);
-        retex_reading_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
-        retex_reading_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
-    }
-    for (int i = 0; i < samples->nimages && !reading->code; i++)
-        read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
+    if (!reading->code)
+        check_laid(reading, set);
+    if (!reading->code && is_samples && json_object_get(root, "set"))
+        read_reference(reading, json_object_get(root, "set"), &set->refers);
 }
 
 /* Checks the version before everything else: in a manifest of another version nothing else may be relied on. Builds
@@ -433,8 +425,7 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
         retex_reading_fail(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }
 
-static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
-                      RetexSamples **samples, RetexSamplePart **sample_parts)
+static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set)
 {
     char kind[32] = "";
 
@@ -442,32 +433,22 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
     if (reading->code)
         return;
     retex_reading_text(reading, root, "kind", kind, sizeof kind);
-    const int stream = strcmp(kind, "stream") == 0;
-    const int has_set = stream || strcmp(kind, "set") == 0;
-    const int has_samples = stream || strcmp(kind, "samples") == 0;
-    const int width = retex_reading_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
-    const int height = retex_reading_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
-    if (!has_set && !has_samples)
+    const int is_samples = strcmp(kind, "samples") == 0;
+    if (!is_samples && strcmp(kind, "set") != 0)
         retex_reading_fail(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
-    if (!reading->code && has_set)
-        read_set(reading, root, width, height, set);
-    if (!reading->code && has_samples)
-        read_samples(reading, json_object_get(root, "samples"), width, height, samples, sample_parts);
+    if (!reading->code)
+        read_set(reading, root, is_samples, set);
 }
 
-int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
-                        RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err)
+int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexBandSums *sums, RetexError *err)
 {
     Reading reading = {name, err, 0, sums};
     const RetexManifestSum sum = retex_manifest_sum(json);
     json_error_t where;
 
     *set = NULL;
-    *samples = NULL;
-    *sample_parts = NULL;
     if (sums)
-        *sums = (RetexBandSums){
-            0, calloc((size_t)RETEX_SET_PARTS_MAX + (size_t)RETEX_SET_FOOTPRINTS_MAX, sizeof *sums->of)};
+        *sums = (RetexBandSums){0, calloc((size_t)RETEX_SET_PARTS_MAX, sizeof *sums->of)};
     if (sums && !sums->of)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
     if (sum == RETEX_MANIFEST_WRONG)
@@ -481,15 +462,11 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
     if (!json_is_object(root))
         retex_reading_fail(&reading, RETEX_EFORMAT, "is no JSON object");
     else
-        read_root(&reading, root, sum, set, samples, sample_parts);
+        read_root(&reading, root, sum, set);
     json_decref(root);
     if (*set)
         (*set)->file_sum = retex_manifest_own_sum(json);
-    if (reading.code) {
+    if (reading.code)
         retex_set_close(set);
-        retex_samples_close(samples);
-        free(*sample_parts);
-        *sample_parts = NULL;
-    }
     return reading.code;
 }

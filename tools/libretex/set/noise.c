@@ -26,7 +26,7 @@ int retex_set_add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexE
     int code = retex_signals_sort(&signals, set, err);
     if (code)
         return code;
-    code = retex_row_reader_open(&reader, set, NULL, err);
+    code = retex_row_reader_open(&reader, set, err);
     for (int i = 1; i < set->nparts && !code; i++) {
         const RetexPart *part = &set->parts[i];
         const float share = strcmp(part->name, RETEX_NOISE_PREFIX RETEX_SIGNAL_INDEP) == 0 ? 1 : 0.5f;

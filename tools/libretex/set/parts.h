@@ -4,6 +4,10 @@
 
 #include "set/set.h"
 
+/* Append a part without pixels and without a source; width 0 = the set's own size. */
+int retex_set_add_absent(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width,
+                         int height, int *index, RetexError *err);
+
 /* 1 if a term, footprint, mixture or target refers to the part. */
 int retex_part_is_used(const RetexSet *set, int part);
 

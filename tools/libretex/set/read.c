@@ -1,9 +1,8 @@
-/* Reads sets, samples and streams of both from EXR files. The meaning of parts comes from the manifest, their layout
+/* Reads sets, and samples, from EXR files. The meaning of parts comes from the manifest, their layout
  * from the EXR headers, and both must agree before any pixel is read. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/samples.h>
 #include <retex/set_file.h>
 
 #include "set/read.h"
@@ -22,11 +21,9 @@ enum { LARGEST_GAIN = 1100 };
 typedef struct Source {
     RetexInput *input;
     RetexExr *exr;
-    RetexSet *set; /* without pixels; NULL where the file has no set */
-    RetexSamples *samples;
-    RetexSamplePart *names; /* of samples */
+    RetexSet *set; /* without pixels */
     RetexBandSums sums;
-    RetexExrRequest *requests;
+    RetexExrRequest *requests; /* by part of the set */
     int nrequests;
     uint64_t memory_bytes, stored_bytes; /* sizes of the requested parts in memory and in the file */
 } Source;
@@ -36,9 +33,7 @@ static void source_close(Source *source)
     retex_exr_close(&source->exr);
     retex_input_close(&source->input);
     retex_set_close(&source->set);
-    retex_samples_close(&source->samples);
     retex_band_sums_free(&source->sums);
-    free(source->names);
     free(source->requests);
 }
 
@@ -65,21 +60,19 @@ static int source_describe(Source *source, RetexError *err)
     const char *json = retex_exr_attribute(source->exr, 0, RETEX_MANIFEST_ATTRIBUTE);
     if (!json)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (no `%s` attribute)", name, RETEX_MANIFEST_ATTRIBUTE);
-    code = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, &source->sums, err);
+    code = retex_manifest_read(json, name, &source->set, &source->sums, err);
     if (code)
         return code;
-    const size_t most =
-        (size_t)(source->set ? source->set->nparts : 0) + (size_t)(source->samples ? source->samples->nimages : 0);
-    source->requests = calloc(most + 1, sizeof *source->requests);
+    source->requests = calloc((size_t)source->set->nparts + 1, sizeof *source->requests);
     return source->requests ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
 }
 
-/* Requests a part of the manifest; the file's part of that name must be as the manifest says. index: the part's number
- * in the checksums of bands. */
-static int request_part(Source *source, const char *name, const char *letters, RetexPixelType type, uint32_t crc,
-                        int index, RetexImage *image, RetexError *err)
+/* Requests a part of the manifest; the file's part of that name must be as the manifest says. */
+static int request_part(Source *source, int index, RetexError *err)
 {
-    const char *file = retex_input_name(source->input);
+    RetexPart *own = &source->set->parts[index];
+    RetexImage *image = &own->image;
+    const char *file = retex_input_name(source->input), *name = own->name, *letters = own->letters;
     const int part = retex_exr_find_part(source->exr, name);
     RetexExrRequest *request = &source->requests[source->nrequests];
     int width, height;
@@ -97,20 +90,20 @@ static int request_part(Source *source, const char *name, const char *letters, R
             snprintf(channel, RETEX_EXR_NAME_MAX, "%c", letters[c]);
         else
             snprintf(channel, RETEX_EXR_NAME_MAX, "%.180s.%c", name, letters[c]);
-        if (!retex_exr_channel_type(source->exr, part, channel, &found) || found != type)
+        if (!retex_exr_channel_type(source->exr, part, channel, &found) || found != own->type)
             return retex_fail(err, RETEX_EFORMAT, "%s: part %s has no %s channel %s", file, name,
-                              type == RETEX_HALF ? "half" : "float", channel);
+                              own->type == RETEX_HALF ? "half" : "float", channel);
     }
     request->part = part;
     request->image = image;
     request->with_crc = 1;
-    request->expected = crc;
+    request->expected = own->crc;
     request->bands = source->sums.of[index];
     request->allowed = retex_allowed_values(name);
     source->nrequests++;
     const uint64_t count = (uint64_t)width * (uint64_t)height * strlen(letters);
     source->memory_bytes += count * sizeof(float);
-    source->stored_bytes += count * (type == RETEX_HALF ? 2 : 4);
+    source->stored_bytes += count * (own->type == RETEX_HALF ? 2 : 4);
     return 0;
 }
 
@@ -118,22 +111,8 @@ static int request_set(Source *source, RetexError *err)
 {
     int code = 0;
 
-    for (int i = 0; i < source->set->nparts && !code; i++) {
-        RetexPart *part = &source->set->parts[i];
-        code = request_part(source, part->name, part->letters, part->type, part->crc, i, &part->image, err);
-    }
-    return code;
-}
-
-static int request_samples(Source *source, RetexError *err)
-{
-    const int first = source->set ? source->set->nparts : 0;
-    int code = 0;
-
-    for (int i = 0; i < source->samples->nimages && !code; i++)
-        if (source->names[i].name[0])
-            code = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, source->names[i].crc, first + i,
-                                  &source->samples->images[i], err);
+    for (int i = 0; i < source->set->nparts && !code; i++)
+        code = request_part(source, i, err);
     return code;
 }
 
@@ -181,25 +160,12 @@ static int read_pixels(Source *source, int nthreads, RetexError *err)
     return code ? code : read_requests(source, nthreads, err);
 }
 
-static int request_samples_stored(Source *source, RetexError *err)
-{
-    RetexSamples *samples = source->samples;
-    const int first = source->nrequests;
-    const int code = request_samples(source, err);
-
-    for (int i = 0, next = first; i < samples->nimages && !code; i++)
-        samples->footprints[i].source_image = source->names[i].name[0] ? ++next : 0;
-    return code;
-}
-
-/* Makes the open file the source of the set's parts, and of the samples if they are wanted. */
-static int keep_open(Source *source, int with_samples, int nthreads, RetexError *err)
+/* Makes the open file the source of the set's parts. */
+static int keep_open(Source *source, int nthreads, RetexError *err)
 {
     RetexSetSource *opened;
-    int code = source->set ? request_set(source, err) : 0;
+    int code = request_set(source, err);
 
-    if (!code && with_samples)
-        code = request_samples_stored(source, err);
     if (!code)
         code = check_stored(source, err);
     if (code)
@@ -213,54 +179,33 @@ static int keep_open(Source *source, int with_samples, int nthreads, RetexError 
     code = retex_exr_source_open(&opened, &parts, err);
     if (code)
         return code;
-    if (source->set)
-        source->set->source = opened;
-    if (with_samples)
-        source->samples->source = source->set ? retex_exr_source_retain(opened) : opened;
+    for (int i = 0; i < source->set->nparts; i++)
+        retex_part_set_source(&source->set->parts[i], opened, i);
+    retex_source_release(&opened);
     return 0;
 }
 
-/* Reads the set, the samples, or both into memory. */
-static int read_whole(Source *source, int with_set, int with_samples, int nthreads, RetexError *err)
-{
-    int code = with_samples ? request_samples(source, err) : 0;
-
-    if (!code && with_set)
-        code = request_set(source, err);
-    return code ? code : read_pixels(source, nthreads, err);
-}
-
-static int read_described(Source *source, RetexSet **set, RetexSamples **samples, int open, int nthreads,
-                          RetexError *err)
+static int read_described(Source *source, RetexSet **set, int open, int nthreads, RetexError *err)
 {
     int code = source_describe(source, err);
 
+    if (!code && open)
+        code = keep_open(source, nthreads, err);
+    else if (!code)
+        code = request_set(source, err);
+    if (!code && !open)
+        code = read_pixels(source, nthreads, err);
     if (code)
         return code;
-    const int with_set = set && source->set, with_samples = samples && source->samples;
-    if (!with_set && !with_samples)
-        return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
-                          source->set ? "a set" : "samples", source->set ? "samples" : "set");
-    code = open ? keep_open(source, with_samples, nthreads, err)
-                  : read_whole(source, with_set, with_samples, nthreads, err);
-    if (code)
-        return code;
-    if (set) {
-        *set = source->set;
-        source->set = NULL;
-    }
-    if (samples) {
-        *samples = source->samples;
-        source->samples = NULL;
-    }
+    *set = source->set;
+    source->set = NULL;
     return 0;
 }
 
-int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
-                       RetexError *err)
+int retex_set_read_exr(RetexInput **input, RetexSet **set, int open, int nthreads, RetexError *err)
 {
     Source source = {.input = *input};
-    const int code = read_described(&source, set, samples, open, nthreads, err);
+    const int code = read_described(&source, set, open, nthreads, err);
 
     *input = source.input; /* NULL where the file stays open as the source */
     source.input = NULL;
@@ -272,10 +217,8 @@ static int check_described(Source *source, int nthreads, RetexError *err)
 {
     int code = source_describe(source, err);
 
-    if (!code && source->set)
+    if (!code)
         code = request_set(source, err);
-    if (!code && source->samples)
-        code = request_samples(source, err);
     if (!code)
         code = check_memory(source, err);
     if (code)

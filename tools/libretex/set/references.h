@@ -13,7 +13,9 @@ typedef enum RetexPartUse {
     RETEX_PART_SPREAD,
     RETEX_PART_ALBEDO,
     RETEX_PART_WEIGHT, /* of a mixture */
-    RETEX_PART_ORIGINAL
+    RETEX_PART_ORIGINAL,
+    RETEX_PART_LAID, /* what the texture that is laid on the set shows at a footprint */
+    RETEX_PART_GATES /* of a target, by such a texture */
 } RetexPartUse;
 
 /* user: the index of the term, footprint, mixture or target. *part may be changed. */

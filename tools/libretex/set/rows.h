@@ -1,15 +1,15 @@
-/* Reads rows of a set's parts and of samples from memory, band store or source. Private to libretex. */
+/* Reads rows of a set's parts, from memory or from their sources. Private to libretex. */
 #ifndef RETEX_SET_ROWS_H
 #define RETEX_SET_ROWS_H
 
-#include <retex/samples.h>
+#include <retex/set.h>
 
 #include "base/row_span.h"
 
 typedef struct RetexRowReader RetexRowReader; /* one for each thread */
 
-/* Open a reader; set or samples may be NULL. */
-int retex_row_reader_open(RetexRowReader **reader, const RetexSet *set, const RetexSamples *samples, RetexError *err);
+/* Open a reader. Parts may be added to the set while it is open, but no source. */
+int retex_row_reader_open(RetexRowReader **reader, const RetexSet *set, RetexError *err);
 void retex_row_reader_close(RetexRowReader **reader);
 
 /* Read row y of a part, its channels interleaved; *row is NULL where all of it is 0. The row stays valid until the next
@@ -18,7 +18,5 @@ int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **
 /* The same with the span outside of which the row is known to be 0; empty if *row is NULL. */
 int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const float **row, RetexRowSpan *span,
                               RetexError *err);
-/* Read row y of the samples' image of a footprint in the same way. */
-int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const float **row, RetexError *err);
 
 #endif

@@ -2,10 +2,16 @@
 #ifndef RETEX_SET_SET_H
 #define RETEX_SET_SET_H
 
-#include <retex/host/band_store.h>
 #include <retex/set.h>
 
-typedef struct RetexSetSource RetexSetSource; /* an open file, see set/source.h */
+/* The file of a set, with the checksum of its manifest, which has those of all parts. */
+typedef struct RetexSetReference {
+    char path[4096]; /* absolute; "": none */
+    uint64_t bytes;
+    uint32_t crc;
+} RetexSetReference;
+
+enum { RETEX_SET_FOOTPRINTS_MAX = 512 }; /* of a set, in files */
 
 /* RetexSetInfo says what its members mean. */
 struct RetexSet {
@@ -27,10 +33,10 @@ struct RetexSet {
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
     int nparameters;
     RetexParameter parameters[RETEX_PARAMETERS_MAX];
-    RetexBandStore *store;  /* owned; where parts with a store_image are, or NULL */
+    int is_samples;
+    RetexSetReference refers; /* the set that it names, see retex_set_refer */
     uint64_t file_bytes; /* of the file that the set was read from, and */
     uint32_t file_sum;   /* the checksum of its manifest; 0: of no file */
-    RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
 };
 
 /* The channels of a footprint's part `spread`: 2, 3, or RETEX_AXES; 2 where it is none of these, or absent. */

@@ -1,4 +1,5 @@
-/* The interface of an open file from which parts of a set are read. Private to libretex. */
+/* Where rows of parts are that are not in memory: an open EXR file, an open pack, or a band store. Private to
+ * libretex. */
 #ifndef RETEX_SET_SOURCE_H
 #define RETEX_SET_SOURCE_H
 
@@ -7,7 +8,7 @@
 #include "set/set.h"
 
 struct RetexSetSource {
-    void (*close)(RetexSetSource *source);
+    void (*close)(RetexSetSource *source); /* called when nothing holds it any more */
     /* Open a reader of rows, one for each thread. */
     int (*reader_open)(RetexSetSource *source, void **reader, RetexError *err);
     void (*reader_close)(void *reader);
@@ -17,6 +18,18 @@ struct RetexSetSource {
     int (*read_row)(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
     /* The chunks of a part as they are stored; 0 where they cannot be copied into an EXR file. NULL: none can. */
     int (*stored)(RetexSetSource *source, int part, RetexPixelType type, RetexExrStored *stored);
+    int holders; /* parts, and whoever made it */
 };
+
+/* A source begins with one holder, and is closed when the last one releases it, which is NULL afterwards. */
+void retex_source_release(RetexSetSource **source);
+
+/* Let part number `number` of a source be where a part's rows are, in place of what it had; source NULL: none. */
+void retex_part_set_source(RetexPart *part, RetexSetSource *source, int number);
+
+/* Make a source whose parts are the images of a band store. It owns the store, whatever is returned. */
+int retex_store_source_open(RetexSetSource **source, RetexBandStore *store, RetexError *err);
+/* The band store where a part's rows are; NULL: they are not in one. */
+RetexBandStore *retex_part_store(const RetexPart *part);
 
 #endif

@@ -96,7 +96,7 @@ int retex_set_picture_manifest(const RetexSet *set, const RetexImage *picture, c
     int code = retex_set_checksum(&shown, nthreads, err);
     shown.nparts = set->nparts;
     if (!code)
-        code = retex_set_manifest(&shown, NULL, json, err);
+        code = retex_set_manifest(&shown, json, err);
     free(shown.parts);
     return code;
 }

@@ -22,7 +22,7 @@ int retex_set_part_rows(RetexImage *image, const RetexSet *set, int part, int fi
 {
     const size_t length = (size_t)image->width * (size_t)image->channels;
     RetexRowReader *reader;
-    int code = retex_row_reader_open(&reader, set, NULL, err);
+    int code = retex_row_reader_open(&reader, set, err);
     for (int y = 0; y < image->height && !code; y++) {
         const float *row;
         float *to = image->pixels + (size_t)y * length;
@@ -42,7 +42,6 @@ int retex_set_strip_open(RetexSetStrip **result, const RetexSet *whole, int most
     RetexSetStrip *strip = *result = calloc(1, sizeof *strip);
     if (strip) {
         *strip = (RetexSetStrip){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
-        strip->set.store = NULL, strip->set.source = NULL;
         strip->set.parts = calloc(count, sizeof *strip->set.parts);
         strip->buffers = calloc(count, sizeof *strip->buffers);
     }
@@ -52,7 +51,7 @@ int retex_set_strip_open(RetexSetStrip **result, const RetexSet *whole, int most
     }
     for (int i = 0; i < whole->nparts; i++) {
         strip->set.parts[i] = whole->parts[i];
-        strip->set.parts[i].store_image = 0;
+        strip->set.parts[i].source = NULL; /* it is not this set's to release */
     }
     return RETEX_OK;
 }

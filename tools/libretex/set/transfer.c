@@ -16,7 +16,6 @@ typedef struct TransferWork {
     RetexComputeRows *make;
     void *context;
     const RetexSet *set;
-    const RetexSamples *samples;
     RetexBandStore *store;
 } TransferWork;
 
@@ -52,7 +51,7 @@ static int transfer_job(void *context, int index, int thread, RetexError *err)
     (void)thread;
     if (y0 >= y1)
         return RETEX_OK;
-    int code = retex_row_reader_open(&reader, work->set, work->samples, err);
+    int code = retex_row_reader_open(&reader, work->set, err);
     if (!code && g->image->pixels)
         code = work->make(work->context, reader, g, y0, y1, g->image->pixels + retex_image_index(g->image, 0, y0), err);
     else if (!code)
@@ -62,10 +61,9 @@ static int transfer_job(void *context, int index, int thread, RetexError *err)
 }
 
 int retex_compute_images(const RetexImageTransfer *images, int count, RetexComputeRows *make, void *context,
-                         const RetexSet *set, const RetexSamples *samples, RetexBandStore *store, int nthreads,
-                         RetexError *err)
+                         const RetexSet *set, RetexBandStore *store, int nthreads, RetexError *err)
 {
-    TransferWork work = {images, 0, make, context, set, samples, store};
+    TransferWork work = {images, 0, make, context, set, store};
     for (int i = 0; i < count; i++) {
         const int blocks = (images[i].image->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         work.blocks = blocks > work.blocks ? blocks : work.blocks;
@@ -81,16 +79,15 @@ static int copy_rows(void *context, RetexRowReader *reader, const RetexImageTran
     (void)context;
     for (int y = y0; y < y1 && !code; y++, to += length) {
         const float *row;
-        code = g->part >= 0 ? retex_row_reader_get(reader, g->part, y, &row, err)
-                            : retex_row_reader_sample(reader, g->footprint, y, &row, err);
+        code = retex_row_reader_get(reader, g->part, y, &row, err);
         if (!code && row)
             memcpy(to, row, length * sizeof *row);
     }
     return code;
 }
 
-int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, const RetexSamples *samples,
-                          RetexBandStore *store, int nthreads, RetexError *err)
+int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, RetexBandStore *store,
+                          int nthreads, RetexError *err)
 {
-    return retex_compute_images(images, count, copy_rows, NULL, set, samples, store, nthreads, err);
+    return retex_compute_images(images, count, copy_rows, NULL, set, store, nthreads, err);
 }

@@ -1,4 +1,4 @@
-/* Copies or computes images of a set and of samples, into memory or into a band store. Private to libretex. */
+/* Copies or computes images of a set, into memory or into a band store. Private to libretex. */
 #ifndef RETEX_SET_TRANSFER_H
 #define RETEX_SET_TRANSFER_H
 
@@ -7,15 +7,14 @@
 #include "set/rows.h"
 
 typedef struct RetexImageTransfer {
-    int part, footprint; /* the part of the set, or -1; the footprint of the samples, or -1 */
+    int part;            /* of the set, which is copied or computed */
     RetexImage *image;   /* destination, of the image's size: its pixels, which are 0, if it has any; */
     int store_image;     /* else this image of the band store */
 } RetexImageTransfer;
 
-/* Copy all rows of these images from wherever they are. set, samples and store may be NULL where no image needs
- * them. */
-int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, const RetexSamples *samples,
-                          RetexBandStore *store, int nthreads, RetexError *err);
+/* Copy all rows of these images from wherever they are. store may be NULL where no image needs it. */
+int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, RetexBandStore *store,
+                          int nthreads, RetexError *err);
 
 /* Computes rows y0 <= y < y1 of an image into `to`, which is 0. `reader` belongs to this call alone. */
 typedef int RetexComputeRows(void *context, RetexRowReader *reader, const RetexImageTransfer *image, int y0, int y1,
@@ -23,7 +22,6 @@ typedef int RetexComputeRows(void *context, RetexRowReader *reader, const RetexI
 
 /* Compute all rows of these images, in bands on all threads. */
 int retex_compute_images(const RetexImageTransfer *images, int count, RetexComputeRows *make, void *context,
-                         const RetexSet *set, const RetexSamples *samples, RetexBandStore *store, int nthreads,
-                         RetexError *err);
+                         const RetexSet *set, RetexBandStore *store, int nthreads, RetexError *err);
 
 #endif

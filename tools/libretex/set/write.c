@@ -1,23 +1,23 @@
-/* Writes sets, samples and streams of both. Parts are encoded first, because the manifest, which is in the file's
+/* Writes sets, and samples. Parts are encoded first, because the manifest, which is in the file's
  * header, holds their checksums. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/samples.h>
+#include <retex/host/band_store.h>
 #include <retex/set_file.h>
 
 #include "base/params.h"
 #include "exr/io.h"
+#include "set/laid.h"
 #include "set/manifest.h"
 #include "io/output.h"
 #include "set/parts.h"
 #include "set/references.h"
 #include "set/source.h"
-#include "set/staging.h"
+#include "set/transfer.h"
 
 typedef struct Choice {
     const RetexSet *set;
-    const RetexSamples *samples;
     char *in_view;
 } Choice;
 
@@ -41,19 +41,23 @@ static void keep_part(void *context, RetexPartUse use, int user, int *part)
 {
     const Choice *c = context;
     const int of_footprint = use == RETEX_PART_UV || use == RETEX_PART_SPREAD || use == RETEX_PART_ALBEDO;
-    const int sampled = of_footprint && retex_samples_have(c->samples, user);
-    c->in_view[*part] |= use != RETEX_PART_ORIGINAL &&
-                      (!sampled || (use == RETEX_PART_ALBEDO && has_further(c->set, user)));
+    const int is_laid = use == RETEX_PART_LAID || use == RETEX_PART_GATES;
+    const int sampled = of_footprint && c->set->footprints[user].sampled;
+    const int is_read =
+        use != RETEX_PART_ORIGINAL && (!sampled || (use == RETEX_PART_ALBEDO && has_further(c->set, user)));
+    c->in_view[*part] |= c->set->is_samples ? is_laid : is_read;
 }
 
-/* Decides which parts are written. With samples only those that recombination needs: the picture, the terms, and
- * footprints that have no sample, so that another target can be sampled further down the pipe. */
-static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *in_view)
+/* Decides which parts are written. Of a set with textures laid on it only those that recombination needs: the picture,
+ * the terms, what the textures show, and footprints that have none, so that another target can be given one further
+ * down the pipe. Of samples only what the textures show. */
+static void choose_parts(const RetexSet *set, char *in_view)
 {
-    Choice choice = {set, samples, in_view};
-    memset(in_view, !samples, (size_t)set->nparts);
-    in_view[0] = 1;
-    if (samples)
+    Choice choice = {set, in_view};
+    const int all = !set->is_samples && !retex_set_has_laid(set);
+    memset(in_view, all, (size_t)set->nparts);
+    in_view[0] |= !set->is_samples;
+    if (!all)
         retex_set_visit_const_parts(set, keep_part, &choice);
 }
 
@@ -103,11 +107,13 @@ static int references_are_sound(const RetexSet *set)
 {
     int sound = 1;
     for (int i = 0; i < set->ntargets && sound; i++)
-        sound = part_in_range(set, set->targets[i].original, 1);
+        sound = part_in_range(set, set->targets[i].original, 1) && part_in_range(set, set->targets[i].gates - 1, 1);
     for (int i = 0; i < set->nfootprints && sound; i++) {
         const RetexFootprint *footprint = &set->footprints[i];
         sound = part_in_range(set, footprint->uv, 1) && part_in_range(set, footprint->spread, 1) &&
-                part_in_range(set, footprint->albedo, 1);
+                part_in_range(set, footprint->albedo, 1) && part_in_range(set, footprint->sampled - 1, 1);
+        for (int k = 0; k < RETEX_FINISHES_MAX && sound; k++)
+            sound = part_in_range(set, footprint->finished[k] - 1, 1);
     }
     for (int i = 0; i < set->nmixtures && sound; i++)
         sound = mixture_is_sound(set, &set->mixtures[i]);
@@ -116,22 +122,17 @@ static int references_are_sound(const RetexSet *set)
     return sound;
 }
 
-/* Whether a part's pixels are somewhere: in the band store, in memory, or in the open file. */
-static int has_pixels(const RetexSet *set, const RetexPart *part)
-{
-    return part->store_image ? set->store != NULL : part->image.pixels || set->source;
-}
-
 /* Checks everything about a set that a caller may have filled in by hand. */
 static int check_set(const RetexSet *set, RetexError *err)
 {
     const RetexPart *picture = set->parts;
-    if (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(picture->letters, "RGB") != 0 ||
-        picture->image.width != set->width || picture->image.height != set->height)
+    if (!set->is_samples &&
+        (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(picture->letters, "RGB") != 0 ||
+         picture->image.width != set->width || picture->image.height != set->height))
         return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
                           set->height);
     for (int i = 0; i < set->nparts; i++)
-        if (!has_pixels(set, &set->parts[i]))
+        if (!set->parts[i].image.pixels && !set->parts[i].source)
             return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
     return counts_are_sound(set) && references_are_sound(set)
                ? RETEX_OK
@@ -140,20 +141,22 @@ static int check_set(const RetexSet *set, RetexError *err)
 
 /* State of writing one file. */
 typedef struct Writing {
-    const RetexSet *whole; /* or NULL */
-    RetexSetView view;     /* of it */
-    const RetexSamples *samples;
-    RetexSamplePart *names;
+    const RetexSet *whole;
+    RetexSetView view; /* of it */
     RetexBandSums sums;
     RetexImage blank;    /* one pixel, for a file that would have no part */
-    RetexExrPart *parts; /* parts of the view, then of the samples */
+    RetexExrPart *parts; /* of the view */
     int count;
-    RetexStaging staging;
     RetexExrStored *stored; /* one for each part that is copied as it is stored */
     int nstored;
+    RetexImageTransfer *copies; /* one for each part that is copied from another open file before the first byte is
+                                   written, as the manifest, which stands first, has the checksums of all */
+    RetexImage *copied;         /* where to, if it is smaller than the picture; else into: */
+    RetexBandStore *store;
+    int ncopies;
     const char *path;
     RetexExrCompression compress;
-    int nthreads, width, height;
+    int nthreads;
 } Writing;
 
 static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *letters, RetexPixelType type,
@@ -168,19 +171,53 @@ static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *lett
     return part;
 }
 
+/* Lets a part be copied into the band store, which is near the file to be written and compressed as that is. */
+static int copy_to_store(Writing *w, RetexExrPart *exr, int *image, RetexError *err)
+{
+    char name[RETEX_NAME_MAX];
+    int code = RETEX_OK;
+    if (!w->store) {
+        code = retex_band_store_create(&w->store, w->whole->width, w->whole->height, 0, w->path, err);
+        if (!code && !w->compress)
+            retex_band_store_set_plain(w->store);
+        if (!code && w->compress == RETEX_EXR_QUICKLY)
+            retex_band_store_set_fast(w->store);
+    }
+    snprintf(name, sizeof name, "part_%d", w->ncopies);
+    if (!code)
+        code = retex_band_store_add(w->store, name, exr->letters, exr->type, image, err);
+    exr->store = w->store;
+    exr->store_image = *image;
+    return code;
+}
+
 /* A part that is in an open file. For a pipe its chunks are copied as they are stored, if they can be; whoever reads
  * the pipe compares the checksums. Files are written from what was decoded and compared. */
-static int add_part_in_source(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
+static int add_part_in_source(Writing *w, RetexExrPart *exr, int part, RetexError *err)
 {
-    RetexSetSource *source = part >= 0 ? w->whole->source : w->samples->source;
-    const int number = part >= 0 ? part : w->samples->footprints[footprint].source_image - 1;
+    const RetexPart *own = &w->whole->parts[part];
+    RetexSetSource *source = own->source;
     RetexExrStored *stored = &w->stored[w->nstored];
-    if (w->compress == RETEX_EXR_QUICKLY && source->stored && source->stored(source, number, exr->type, stored)) {
+    if (w->compress == RETEX_EXR_QUICKLY && source->stored &&
+        source->stored(source, own->source_part, exr->type, stored)) {
         exr->stored = stored;
         w->nstored++;
         return RETEX_OK;
     }
-    return retex_staging_add(&w->staging, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
+    RetexImage *copied = &w->copied[w->ncopies];
+    RetexImageTransfer *copy = &w->copies[w->ncopies];
+    const int is_large = own->image.width == w->whole->width && own->image.height == w->whole->height;
+    *copy = (RetexImageTransfer){.part = part, .image = copied};
+    int code;
+    if (is_large) {
+        *copied = own->image;
+        code = copy_to_store(w, exr, &copy->store_image, err);
+    } else {
+        code = retex_image_alloc(copied, own->image.width, own->image.height, own->image.channels, err);
+    }
+    exr->image = copied;
+    w->ncopies++;
+    return code;
 }
 
 /* Lists all parts with the place of their pixels, after copying those of another open file. */
@@ -192,63 +229,35 @@ static int list_parts(Writing *w, RetexError *err)
         const RetexPart *part = &w->view.set.parts[i];
         RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
         exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
-        if (part->store_image)
-            exr->store = w->whole->store, exr->store_image = part->store_image - 1;
+        if (!part->image.pixels && (exr->store = retex_part_store(part)))
+            exr->store_image = part->source_part;
         else if (!part->image.pixels)
-            code = add_part_in_source(w, exr, w->view.source[i], -1, err);
-    }
-    for (int i = 0; w->samples && i < w->samples->nimages && !code; i++) {
-        const RetexSamples *samples = w->samples;
-        if (!w->names[i].name[0])
-            continue;
-        RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
-        exr->color = &retex_color_tag_rec709;
-        if (samples->footprints[i].store_image)
-            exr->store = samples->store, exr->store_image = samples->footprints[i].store_image - 1;
-        else if (!samples->images[i].pixels)
-            code = add_part_in_source(w, exr, -1, i, err);
+            code = add_part_in_source(w, exr, w->view.source[i], err);
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
-    return code ? code : retex_staging_fill(&w->staging, w->whole, w->samples, w->nthreads, err);
-}
-
-static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
-{
-    uint32_t *crcs = retex_exr_band_crcs(encoding, part);
-
-    w->sums.of[w->sums.count++] = crcs;
-    return crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+    return code ? code : retex_transfer_images(w->copies, w->ncopies, w->whole, w->store, w->nthreads, err);
 }
 
 /* Copies the checksums to where the manifest takes them from. */
 static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *err)
 {
-    int next = 0, code = 0;
+    const int count = w->view.set.nparts;
 
-    w->sums.of =
-        calloc((size_t)w->view.set.nparts + (size_t)(w->samples ? w->samples->nimages : 0) + 1, sizeof *w->sums.of);
-    if (!w->sums.of)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
-    for (int i = 0; i < w->view.set.nparts && !code; i++, next++) {
-        w->view.set.parts[i].crc = w->parts[next].crc;
-        code = keep_band_sums(w, encoding, next, err);
+    w->sums.of = calloc((size_t)count + 1, sizeof *w->sums.of);
+    for (int i = 0; w->sums.of && i < count; i++) {
+        w->view.set.parts[i].crc = w->parts[i].crc;
+        if (!(w->sums.of[i] = retex_exr_band_crcs(encoding, i)))
+            break;
+        w->sums.count++;
     }
-    for (int i = 0; w->samples && i < w->samples->nimages && !code; i++) {
-        if (!w->names[i].name[0]) {
-            w->sums.of[w->sums.count++] = NULL;
-            continue;
-        }
-        w->names[i].crc = w->parts[next].crc;
-        code = keep_band_sums(w, encoding, next++, err);
-    }
-    return code;
+    return w->sums.of && w->sums.count == count ? RETEX_OK
+                                                : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
 }
 
 /* Encodes the parts and writes the file. */
 static int write_parts(Writing *w, RetexError *err)
 {
-    RetexSet *set = w->whole ? &w->view.set : NULL;
     RetexExrEncoding *encoding = NULL;
     char *json = NULL;
     int code = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
@@ -256,78 +265,58 @@ static int write_parts(Writing *w, RetexError *err)
     if (!code)
         code = keep_sums(w, encoding, err);
     if (!code)
-        code = retex_manifest_write(set, w->samples, w->names, &w->sums, &json, err);
+        code = retex_manifest_write(&w->view.set, &w->sums, &json, err);
     if (!code)
-        code = retex_exr_write(encoding, w->width, w->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
+        code =
+            retex_exr_write(encoding, w->whole->width, w->whole->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
     retex_exr_encoding_free(&encoding);
     free(json);
     return code;
 }
 
-static int check_written(const RetexSet *set, const RetexSamples *samples, RetexError *err)
-{
-    int code = 0;
-
-    if (!set && !samples)
-        return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to write");
-    if (set)
-        code = check_set(set, err);
-    if (!code && samples)
-        code = retex_samples_are_sound(samples, err);
-    if (!code && set && samples)
-        code = retex_samples_check(samples, set, err);
-    return code;
-}
-
 static int open_writing(Writing *w, RetexError *err)
 {
-    const int nsamples = w->samples ? w->samples->nimages : 0;
     char in_view[RETEX_SET_PARTS_MAX];
-    int code = 0;
 
-    if (w->whole) {
-        choose_parts(w->whole, w->samples, in_view);
-        code = retex_set_view_make(&w->view, w->whole, in_view, err);
-    }
+    choose_parts(w->whole, in_view);
+    int code = retex_set_view_make(&w->view, w->whole, in_view, err);
     if (code)
         return code;
-    const int most = w->view.set.nparts + nsamples + 1;
+    const int most = w->view.set.nparts + 1;
     w->parts = calloc((size_t)most, sizeof *w->parts);
-    w->names = calloc((size_t)nsamples + 1, sizeof *w->names);
     w->stored = calloc((size_t)most, sizeof *w->stored);
-    if (!w->parts || !w->names || !w->stored)
+    w->copies = calloc((size_t)most, sizeof *w->copies);
+    w->copied = calloc((size_t)most, sizeof *w->copied);
+    if (!w->parts || !w->stored || !w->copies || !w->copied)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
-    if (w->samples)
-        retex_sample_part_names(w->samples, w->whole, w->names);
-    code = retex_image_alloc(&w->blank, 1, 1, 3, err);
-    return code ? code : retex_staging_open(&w->staging, most, err);
+    return retex_image_alloc(&w->blank, 1, 1, 3, err);
 }
 
 static void close_writing(Writing *w)
 {
-    retex_staging_close(&w->staging);
+    for (int i = 0; w->copied && i < w->ncopies; i++)
+        retex_image_free(&w->copied[i]);
+    retex_band_store_close(&w->store);
     retex_image_free(&w->blank);
     retex_band_sums_free(&w->sums);
+    free(w->copied);
+    free(w->copies);
     free(w->stored);
-    free(w->names);
     free(w->parts);
     retex_set_view_free(&w->view);
 }
 
-int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,
-                    int nthreads, RetexError *err)
+int retex_set_write(RetexSet *set, const char *path, const RetexStoreParams *params, int nthreads, RetexError *err)
 {
     RetexStoreParams own = RETEX_STORE_INIT;
     int code = RETEX_PARAMS_COPY(&own, params, err);
 
     if (!code)
-        code = check_written(set, samples, err);
+        code = check_set(set, err);
     if (code)
         return code;
-    Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = nthreads};
+    Writing w = {.whole = set, .path = path, .nthreads = nthreads};
     w.compress = !own.compress ? RETEX_EXR_PLAIN : strcmp(path, "-") == 0 ? RETEX_EXR_QUICKLY : RETEX_EXR_SMALL;
-    w.width = set ? set->width : samples->width;
-    w.height = set ? set->height : samples->height;
     code = open_writing(&w, err);
     if (!code)
         code = list_parts(&w, err);
@@ -337,4 +326,13 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
         set->parts[w.view.source[i]].crc = w.view.set.parts[i].crc;
     close_writing(&w);
     return code;
+}
+
+int retex_set_write_samples(const RetexSet *set, const char *path, const RetexStoreParams *params, int nthreads,
+                            RetexError *err)
+{
+    RetexSet samples = *set; /* with its parts, but of what refers to them only the textures that are laid on it */
+    samples.is_samples = 1;
+    samples.nterms = samples.nmixtures = samples.nparameters = 0;
+    return retex_set_write(&samples, path, params, nthreads, err);
 }

@@ -83,7 +83,7 @@ static int open_textures(Evaluation *e, RetexError *err)
 static int open_edited(RetexEdited *edited, const Evaluation *e, int number, int nthreads, RetexError *err)
 {
     const RetexSolveModel *m = e->model;
-    const int code = retex_edited_open(edited, m->set, m->samples, e->all[number], &m->combine,
+    const int code = retex_edited_open(edited, m->set, e->all[number], &m->combine,
                                        m->ncolumns > e->ntargets ? EDITED_LAMPS : EDITED_CORRECTED, nthreads, err);
     if (!code)
         edited->view.columns = (RetexRowSpan){m->combine.x0, m->combine.x1};

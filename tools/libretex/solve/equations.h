@@ -17,7 +17,6 @@ typedef struct RetexSolveColumn {
 /* What is evaluated. All is borrowed. */
 typedef struct RetexSolveModel {
     const RetexSet *set;
-    const RetexSamples *samples;
     RetexTexture *const *textures; /* by target, of those that are not sought */
     RetexCombineParams combine;    /* parameters: of the finishes that are tried, and RETEX_SOLVE_LAMP_UNIT of lamps */
     const RetexImage *picture;     /* pixels with a number that is not finite do not count */

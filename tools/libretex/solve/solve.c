@@ -534,9 +534,8 @@ static int solve(Search *s, const RetexImage *picture, RetexError *err)
     return code;
 }
 
-int retex_solve(RetexSolution **solution, const RetexSet *set, const RetexSamples *samples,
-                RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexImage *picture,
-                const RetexSolveParams *params, int nthreads, RetexError *err)
+int retex_solve(RetexSolution **solution, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                const RetexImage *picture, const RetexSolveParams *params, int nthreads, RetexError *err)
 {
     RetexSolveParams own = RETEX_SOLVE_INIT;
     *solution = NULL;
@@ -547,7 +546,7 @@ int retex_solve(RetexSolution **solution, const RetexSet *set, const RetexSample
     int code = s && made ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to solve");
     if (!code) {
         *s = (Search){.solution = made, .params = &own, .nthreads = nthreads};
-        s->model = (RetexSolveModel){.set = set, .samples = samples, .textures = textures, .budget = own.budget};
+        s->model = (RetexSolveModel){.set = set, .textures = textures, .budget = own.budget};
         s->model.combine = (RetexCombineParams)RETEX_COMBINE_INIT;
         code = check_picture(s, picture, err);
     }

@@ -8,7 +8,7 @@
 #include <retex/color.h>
 
 #include "edit/edit.h"
-#include "set/samples.h"
+#include "set/laid.h"
 #include "set/set.h"
 
 /* ---- the list ---- */
@@ -28,10 +28,7 @@ static int is_lamp(RetexUnknownKind kind)
 
 static int is_given(const RetexSolveModel *m, int target)
 {
-    int given = m->textures[target] != NULL;
-    for (int f = 0; f < m->set->nfootprints && m->samples; f++)
-        given |= m->set->footprints[f].target == target && retex_samples_have(m->samples, f);
-    return given;
+    return m->textures[target] != NULL || retex_target_has_laid(m->set, target);
 }
 
 static int find_name(RetexUnknown *unknown, int *index, const RetexSet *set, const char *name, RetexError *err)

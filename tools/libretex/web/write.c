@@ -13,6 +13,7 @@
 #include "compact/compact.h"
 #include "pack/balance.h"
 #include "pack/plan.h"
+#include "set/laid.h"
 #include "set/set.h"
 #include "web/folder.h"
 #include "web/footprints.h"
@@ -743,6 +744,8 @@ int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParam
     if (RETEX_PARAMS_COPY(&own, params, err))
         return RETEX_EINVAL;
     int code = check(&own, err);
+    if (!code)
+        code = retex_set_check_bare(set, "a page", err);
     if (code)
         return code;
     json_t *smaller = json_array();

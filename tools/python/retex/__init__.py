@@ -19,10 +19,10 @@ several threads at the same time; what changes a set waits until they are done. 
 Error."""
 from .library import Code, Error, RetexWarning
 from .pictures import Picture, denoise_picture, encode, read, write
-from .sets import Samples, Set, Target, open  # pylint: disable=redefined-builtin
+from .sets import Set, Target, open  # pylint: disable=redefined-builtin
 from .texture import Source, Texture, edit_text, edit_view, load_preset, parse_edit, save_preset
 
 __version__ = "0.1.0"
-__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture",
+__all__ = ["Code", "Error", "Picture", "RetexWarning", "Set", "Source", "Target", "Texture",
            "denoise_picture", "edit_text", "edit_view", "encode", "load_preset", "open", "parse_edit", "read",
            "save_preset", "write"]

@@ -1,4 +1,4 @@
-"""Sets and packs: their targets, samples of new textures, pictures, batches, denoising and packing."""
+"""Sets and packs: their targets, textures laid on them, pictures, batches, denoising and packing."""
 import contextlib
 import copy
 import ctypes
@@ -91,24 +91,6 @@ class _Handle:
         raise TypeError("what the library keeps in memory cannot be pickled: write it to a file")
 
 
-class Samples:
-    """New textures, filtered at the footprints of a set: the first half of a retexture. Set.sample() makes them."""
-
-    def __init__(self, handle: _Handle):
-        self._handle = handle
-
-    @classmethod
-    def open(cls, path: Path) -> "Samples":
-        """Open a file that write() or retex-sample made."""
-        pointer = c_void_p()
-        call("retex_set_open", path_bytes(path), None, byref(pointer), 0)
-        return cls(_Handle(pointer, "retex_samples_close"))
-
-    def write(self, path: Path, *, threads: int = 0) -> None:
-        """Write them to a file, OpenEXR."""
-        call("retex_set_write", None, self._handle.pointer, path_bytes(path), None, threads_of(threads))
-
-
 class _TextureCache:
     """Loaded textures of a batch, by target and texture, the last ones used up to a number of bytes."""
 
@@ -143,7 +125,7 @@ class Set:
 
     def _read_manifest(self) -> None:
         text = c_void_p()
-        call("retex_set_manifest", self._handle.pointer, None, byref(text))
+        call("retex_set_manifest", self._handle.pointer, byref(text))
         try:
             self._manifest: Dict[str, Any] = json.loads(ctypes.string_at(text))
         finally:
@@ -284,15 +266,35 @@ class Set:
         pass_warnings()
         return by_target, kept, specs
 
-    def sample(self, textures: Textures, *, threads: int = 0) -> Samples:
-        """Filter textures at the footprints of their targets, for several pictures or for a file."""
+    def lay(self, textures: Textures, *, threads: int = 0) -> None:
+        """Lay textures on the set, for several pictures or for a file: they are filtered once, and targets have them
+        in every picture to which no others are given. Other textures of these targets go."""
         threads_of(threads)
-        with self._shared() as pointer:
+        with self._exclusive() as pointer:
             by_target, _kept, specs = self._textures(pointer, textures, threads)
-            made = c_void_p()
-            call("retex_sample_textures", byref(made), pointer, by_target, (RetexTextureSpec * len(specs))(*specs),
-                 len(specs), b"-", threads)
-            return Samples(_Handle(made, "retex_samples_close"))
+            call("retex_sample_textures", pointer, by_target, (RetexTextureSpec * len(specs))(*specs), len(specs), b"-",
+                 threads)
+            self._read_manifest()
+
+    def lay_samples(self, path: Path, *, threads: int = 0) -> None:
+        """Lay on the set what is in a file that write_samples() or retex-sample made."""
+        samples = c_void_p()
+        call("retex_set_open_any", path_bytes(path), byref(samples), threads_of(threads))
+        try:
+            with self._exclusive() as pointer:
+                call("retex_set_lay", pointer, samples)
+                self._read_manifest()
+        finally:
+            lib.retex_set_close(byref(samples))
+
+    def lift(self, target: Optional[str] = None) -> None:
+        """Take the texture off a target that lay() laid there, or all of them: it has its original again."""
+        with self._exclusive() as pointer:
+            number = -1 if target is None else lib.retex_set_find_target(pointer, text_bytes(target))
+            if target is not None and number < 0:
+                raise Error(Code.ENOTFOUND, f"the set has no target {target!r}")
+            lib.retex_set_lift(pointer, number)
+            self._read_manifest()
 
     # ---- pictures ----
 
@@ -322,8 +324,8 @@ class Set:
              *(side or 0 for side in size or (0, 0)))
         return cut
 
-    def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
-              cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
+    def _make(self, what: str, textures: Optional[Textures], crop: Optional[Crop], cross: int,
+              out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
               parameters: Optional[Mapping[str, Sequence[float]]] = None, size: Optional[Size] = None,
               **said: Any) -> Picture:
         threads_of(threads)
@@ -339,7 +341,7 @@ class Set:
                 x1=cut.x + cut.width, parameters=values if values is not None else self._parameters(parameters),
                 develop=ctypes.pointer(develop))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
-            arguments = pointer, samples._handle.pointer if samples else None, by_target, byref(params)
+            arguments = pointer, by_target, byref(params)
             if size:
                 return self._shrunk(what, arguments, cut, threads)
             if out is None:
@@ -364,16 +366,16 @@ class Set:
             lib.retex_shrink_close(byref(shrink))
         return array_of(image)
 
-    def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
+    def combine(self, textures: Optional[Textures] = None, *,
                 lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
                 finishes: Optional[Mapping[str, str]] = None, exposure: Optional[float] = None,
                 white_balance: Optional[float] = None, auto_exposure: bool = False,
                 parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None,
                 size: Optional[Size] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
-        """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
+        """Make a picture: red, green and blue, scene-linear. Targets without a texture keep what lay() laid on
+        them, or their own.
 
         textures  by target: a file's name, a colour, an array, or a Texture; or the text of an edit
-        samples   of this set; `textures` override them
         lights    new values by lamp: a number that multiplies its light, a colour, which keeps its luminance, or text,
                   as in retex-edit(5): "3000K", "1.5*#ffd0a0"; "*" is all lamps that are not named
         solo      turn off all lamps but this one and those of `lights`
@@ -388,17 +390,17 @@ class Set:
         cross     use cross terms of paths with at most this many hits, 0, 2 or 3
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
-        return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters,
+        return self._make("retex_retexture", textures, crop, cross, out, threads, parameters=parameters,
                           lights=lights, solo=solo, finishes=finishes, exposure=exposure,
                           white_balance=white_balance, auto_exposure=auto_exposure, size=size)
 
-    def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
+    def error(self, textures: Optional[Textures] = None, *,
               lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
               finishes: Optional[Mapping[str, str]] = None, crop: Optional[Crop] = None, size: Optional[Size] = None,
               cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
         difference to rendering again with these textures, before it is developed. With `size` it is the mean of that of the pixels."""
-        return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads, lights=lights,
+        return self._make("retex_estimate_error", textures, crop, cross, out, threads, lights=lights,
                           solo=solo, finishes=finishes, size=size)
 
     def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, size: Optional[Size] = None,
@@ -409,12 +411,12 @@ class Set:
         cache = _TextureCache(texture_memory)
         self.preload(memory=memory, threads=threads)
         for row in rows:
-            yield self._make("retex_retexture", row, None, crop, cross, None, threads, cache, size=size)
+            yield self._make("retex_retexture", row, crop, cross, None, threads, cache, size=size)
 
     def preload(self, *, memory: int = 2048 * MEGABYTE, threads: int = 0) -> None:
         """Decode what combine() reads, if it takes at most `memory` bytes: before several pictures of the set."""
         with self._exclusive() as pointer:
-            call("retex_set_preload", pointer, None, None, memory, threads_of(threads))
+            call("retex_set_preload", pointer, None, memory, threads_of(threads))
 
     # ---- the set itself ----
 
@@ -433,7 +435,12 @@ class Set:
     def write(self, path: Path, *, threads: int = 0) -> None:
         """Write the set, OpenEXR."""
         with self._exclusive() as pointer:
-            call("retex_set_write", pointer, None, path_bytes(path), None, threads_of(threads))
+            call("retex_set_write", pointer, path_bytes(path), None, threads_of(threads))
+
+    def write_samples(self, path: Path, *, threads: int = 0) -> None:
+        """Write what is laid on the set to a file, OpenEXR, without the set."""
+        with self._shared() as pointer:
+            call("retex_set_write_samples", pointer, path_bytes(path), None, threads_of(threads))
 
     def pack(self, path: Path, *, quality: int = 90, lossless: bool = False, threads: int = 0) -> int:
         """Write the set as a pack, a small file, as retex-pack(1). Return its bytes."""
@@ -450,5 +457,5 @@ def open(path: Path, *, threads: int = 0) -> Set:  # pylint: disable=redefined-b
     """Open a set or a pack. Its parts are read when they are needed: the file must stay as it is until the set is
     closed."""
     handle = c_void_p()
-    call("retex_set_open", path_bytes(path), byref(handle), None, threads_of(threads))
+    call("retex_set_open", path_bytes(path), byref(handle), threads_of(threads))
     return Set(handle)

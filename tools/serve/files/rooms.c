@@ -110,7 +110,7 @@ static int open_set(Rooms *rooms, OpenRoom *room, int file, int level, RetexErro
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-    int code = retex_set_open(path, &room->set, NULL, rooms->params.threads, err);
+    int code = retex_set_open(path, &room->set, rooms->params.threads, err);
     if (!code && !room->set)
         code = retex_fail(err, RETEX_EFORMAT, "it holds no set");
     const RetexSetInfo info = code ? (RetexSetInfo){.width = 0} : retex_set_info(room->set);
@@ -220,7 +220,7 @@ static int decode(Rooms *rooms, OpenRoom *room, const int corrected[RETEX_MAX_TA
     pthread_mutex_unlock(&list->lock);
     if (!fits)
         return RETEX_OK;
-    int code = retex_set_preload(room->set, NULL, corrected, wanted, rooms->params.threads, err);
+    int code = retex_set_preload(room->set, corrected, wanted, rooms->params.threads, err);
     const uint64_t bytes = bytes_in_memory(room->set);
     pthread_mutex_lock(&list->lock);
     list->bytes = list->bytes - room->kept.bytes + bytes;

@@ -84,7 +84,7 @@ static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t
     params.develop = &plan->develop;
     int code = open_picture(&whole.picture, plan, info.width, info.height, err);
     if (!code)
-        code = retex_retexture(plan->set, NULL, plan->textures, &params, write_rows, &whole, nthreads, err);
+        code = retex_retexture(plan->set, plan->textures, &params, write_rows, &whole, nthreads, err);
     return take_picture(&whole.picture, code, data, bytes, err);
 }
 
@@ -116,7 +116,7 @@ static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads
     params.develop = &plan->develop;
     int code = retex_shrink_open(&part.shrink, place, retex_set_info(plan->set).width, err);
     if (!code)
-        code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);
+        code = retex_retexture(plan->set, plan->textures, &params, keep_rows, &part, nthreads, err);
     if (!code)
         code = retex_shrink_take(&part.shrink, scaled, nthreads, err);
     retex_shrink_close(&part.shrink);

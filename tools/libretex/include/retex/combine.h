@@ -1,11 +1,12 @@
-/* Recombination: the polynomial of a set evaluated with samples, or with textures directly; and its expected error. */
+/* Recombination: the polynomial of a set evaluated with textures that are laid on it, or given; and its expected
+ * error. */
 #ifndef RETEX_COMBINE_H
 #define RETEX_COMBINE_H
 
 #include <retex/budget.h>
 #include <retex/develop.h>
 #include <retex/picture.h>
-#include <retex/samples.h>
+#include <retex/laid.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -35,11 +36,10 @@ typedef struct RetexCombineParams {
         sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0, NULL, NULL                                                 \
     }
 
-/* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
+/* dst (RGB, the set's size) = sum of terms times factors. A target on which no texture is laid keeps its original.
  * The beauty part is read only where nothing is edited and a term of role PICTURE says that it is the result. */
-int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
-                  const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
-                  int nthreads /* 0 = all cores */, RetexError *err);
+int retex_combine(RetexImage *dst, const RetexSet *set, const RetexCombineParams *params /* NULL = defaults */,
+                  const RetexRoi *roi /* NULL = all */, int nthreads /* 0 = all cores */, RetexError *err);
 
 /* Load textures for a set's targets: textures[t], NULL where target t is given none. specs name their targets, each at
  * most once; the set must hold these targets' footprints. To be closed by the caller, also after a failure. */
@@ -64,9 +64,9 @@ typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, Retex
 /* A RetexRowSink that keeps the rows: context is a RetexImage, RGB of the picture's size. */
 int retex_image_keep_rows(void *image, int y0, int y1, const float *rows, RetexError *err);
 
-/* Sampling and recombination in one pass, strip by strip. The rows are those that retex_sample, retex_samples_merge
- * into samples (which may be NULL) and retex_combine would give. */
-int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
+/* Sampling and recombination in one pass, strip by strip. The rows are those that retex_combine would give after
+ * retex_sample had laid these textures on the set, which stays as it is. */
+int retex_retexture(const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
 
@@ -91,8 +91,7 @@ void retex_kept_samples_get_info(const RetexKeptSamples *kept, RetexKeptSamplesI
  * it is developed, to 0.18, the reflectance of a grey card: the geometric mean over its pixels that are not black, as
  * in Reinhard, Stark, Shirley and Ferwerda, 'Photographic Tone Reproduction for Digital Images' (2002), Eq. 1. 0 where
  * all are black; within RETEX_EXPOSURE_MAX. It takes as long as making the picture. */
-int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples /* or NULL */,
-                        RetexTexture *const textures[RETEX_MAX_TARGETS],
+int retex_auto_exposure(double *exposure, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                         const RetexCombineParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
                         RetexError *err);
 
@@ -100,8 +99,7 @@ int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSample
  * per channel and scene-linear, of the difference to rendering again with these textures at the set's sample count. It
  * is computed from the variance of the textures within the footprints, the light that multiplies them there, and the
  * light with more hits than the set keeps; targets without a texture add no error. */
-int retex_estimate_error(const RetexSet *set, const RetexSamples *samples /* or NULL */,
-                         RetexTexture *const textures[RETEX_MAX_TARGETS],
+int retex_estimate_error(const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                          const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                          int nthreads /* 0 = all cores */, RetexError *err);
 

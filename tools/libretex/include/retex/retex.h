@@ -18,6 +18,7 @@
 #include <retex/file_sum.h>
 #include <retex/image.h>
 #include <retex/image_file.h>
+#include <retex/laid.h>
 #include <retex/lamp.h>
 #include <retex/metrics.h>
 #include <retex/output_file.h>
@@ -26,7 +27,6 @@
 #include <retex/picture.h>
 #include <retex/preset.h>
 #include <retex/reduce.h>
-#include <retex/samples.h>
 #include <retex/set.h>
 #include <retex/set_file.h>
 #include <retex/shrink.h>

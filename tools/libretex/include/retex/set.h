@@ -39,7 +39,10 @@ extern "C" {
 #define RETEX_AXES 4        /* channels of a part of axes */
 #define RETEX_QUADRANTS 4   /* of a pixel */
 #define RETEX_NAME_MAX 128  /* bytes of a target or part name, with the final NUL */
+#define RETEX_TEXTURE_TEXT_MAX 256 /* bytes of a texture in words, with the final NUL: longer ones are cut off */
 #define RETEX_SCENE_MAX 256 /* bytes of a scene's name, with the final NUL: longer ones are cut off */
+
+typedef struct RetexSetSource RetexSetSource; /* where rows of parts are that are not in memory: a file that is open */
 
 /* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or an IMAGE
  * factor refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
@@ -51,10 +54,11 @@ typedef struct RetexPart {
     char name[RETEX_NAME_MAX]; /* letters, digits, '_' and '-' */
     char letters[8];
     RetexPixelType type;
-    uint32_t crc;    /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
-                                  the top; filled by reading and writing */
-    int store_image; /* 0, or 1 + its number in the set's band store: then image has its size, but no pixels */
-    RetexImage image;
+    uint32_t crc; /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from the top;
+                     filled by reading and writing */
+    RetexSetSource *source; /* where its rows are, or NULL: in memory */
+    int source_part;        /* its number there */
+    RetexImage image;       /* has its size, but no pixels where these are in the source alone */
 } RetexPart;
 
 typedef struct RetexTarget {
@@ -75,6 +79,9 @@ typedef struct RetexTarget {
     double normal_tilt; /* degrees, 0..90. Above 0: its finishes are three, of which the second and third are the
                            first with the normal of the diffuse lobe tilted to where u grows, and v, for textures'
                            normal maps. There is nothing to choose then. 0: it takes no normal maps */
+    char texture[RETEX_TEXTURE_TEXT_MAX]; /* the texture that is laid on it, in words, for people to read; "": none */
+    int gates; /* of a texture laid on it that has a map of finishes or normals: 1 + part "RGB", of which red, green and
+                  blue are the weights of the second finish and later ones; 0: there is no map */
 } RetexTarget;
 
 typedef enum RetexFootprintKind {
@@ -98,6 +105,10 @@ typedef struct RetexFootprint {
     int albedo;   /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
     int quadrant; /* of a parallelogram: 0 is the whole pixel, 1 to 4 its quarter at the upper left, upper right, lower
                      left and lower right, with the centre uv -+ axes / 4 and half the axes. Else 0 */
+    int sampled;  /* 1 + part "RGB", of the size of the others: what the texture that is laid on the target shows there.
+                     float. 0: none is laid on it */
+    int finished[RETEX_FINISHES_MAX]; /* 1 + part: the same times the weight of each finish, of a texture that has a map
+                                         of finishes or normals; else 0 */
 } RetexFootprint;
 
 /* What a factor is. A later version may add kinds. */
@@ -224,6 +235,8 @@ typedef struct RetexSetInfo {
     double depth_cut;       /* share of the light, of what there is and what max_depth left out, that was left out: an
                                estimate; 0: none, or not known */
     double exposure;        /* stops: the picture has the scene's light times 2^exposure; 0 where nothing was said */
+    int is_samples;         /* 1: a file of samples: targets, footprints and textures laid on them, but no picture and
+                               no terms. See retex_set_open_any */
 } RetexSetInfo;
 
 /* Fill what info->size says that the caller knows. */

@@ -69,10 +69,9 @@ typedef struct RetexSolveParams {
  * finite do not count. textures: by target, NULL where target t has none. Rows are read many times: a set that was
  * brought into memory by retex_set_preload is faster. RETEX_EINVAL where the picture has another size, no pixel counts,
  * or something is both sought and given; RETEX_ENOTFOUND for names that the set does not have. */
-int retex_solve(RetexSolution **solution, const RetexSet *set, const RetexSamples *samples /* or NULL */,
-                RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexImage *picture,
-                const RetexSolveParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
-                RetexError *err);
+int retex_solve(RetexSolution **solution, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                const RetexImage *picture, const RetexSolveParams *params /* NULL = defaults */,
+                int nthreads /* 0 = all cores */, RetexError *err);
 void retex_solution_close(RetexSolution **solution); /* NULL and pointers to NULL are fine */
 /* One of what was sought, in its order; NULL where index is not 0..count-1. It belongs to the solution. */
 const RetexUnknown *retex_solution_unknown(const RetexSolution *solution, int index);

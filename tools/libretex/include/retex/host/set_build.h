@@ -4,7 +4,7 @@
 #define RETEX_HOST_SET_BUILD_H
 
 #include <retex/host/band_store.h>
-#include <retex/samples.h>
+#include <retex/set.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -20,16 +20,15 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *info, RetexError *err)
  * size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
-/* Append a part whose pixels are in the set's band store, under the same name, letters and type. Its rows are read from
- * there. */
+/* Append a part whose pixels are in a band store, under the same name, letters and type. Its rows are read from there
+ * once retex_set_take_store has been called. */
 int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                          int *index, RetexError *err);
-/* The set owns the band store from now on, and closes the one it had. */
-void retex_set_take_store(RetexSet *set, RetexBandStore *store);
+/* Let this be the band store of all parts that were appended without pixels since the last call. The set owns it from
+ * now on, also after a failure; NULL: there is none. */
+int retex_set_take_store(RetexSet *set, RetexBandStore *store, RetexError *err);
 /* The image of a part, whose pixels a renderer writes, or exchanges for others of the same size. */
 RetexImage *retex_set_mutable_image(RetexSet *set, int part);
-/* The image of a footprint, whose pixels a renderer may compute by itself. */
-RetexImage *retex_samples_mutable_image(RetexSamples *samples, int footprint);
 /* A target whose UV ranges and so on become known later than its name. */
 RetexTarget *retex_set_mutable_target(RetexSet *set, int target);
 /* Append a copy; *index (may be NULL) receives its number. */
