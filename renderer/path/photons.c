@@ -363,7 +363,7 @@ static int trace_batches(Tracing *m, int batches, int nthreads)
 }
 
 /* Trace photons, in rounds of batches, until there are enough landings or photons. */
-static int trace_all(Tracing *m, long paths, int nthreads, Photons *photons, RetexError *err)
+static int trace_photons(Tracing *m, long paths, int nthreads, Photons *photons, RetexError *err)
 {
     const long least = m->nsources > 0 ? PHOTONS_OF_SOURCES : PHOTONS_MIN;
     long wanted = paths / PATHS_PER_PHOTON;
@@ -399,7 +399,7 @@ int photons_trace(Photons *photons, const PhotonSources *sources, int nthreads, 
     *photons = (Photons){NULL, 0, 0};
     int code = find_casters(&m, err);
     if (!code && m.ncasters > 0 && (m.of_emitters || m.nsources > 0))
-        code = trace_all(&m, sources->paths, nthreads, photons, err);
+        code = trace_photons(&m, sources->paths, nthreads, photons, err);
     photons->landings = m.landings;
     free(m.casters);
     free(m.caster_sums);

@@ -133,6 +133,8 @@ static double evaluate(const Spline *spline, int c, double at)
     int n = spline->count;
     /* The first and last points of a cubic spline define slopes only. */
     int first = spline->kind == SPLINE_CUBIC && n > 3, last = n - 1 - first;
+    if (isnan(at)) /* it is not below the first point, so a cubic would ask for one before that */
+        return at;
     if (at <= k[first].at)
         return k[first].value[c];
     if (at >= k[last].at)
