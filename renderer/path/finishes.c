@@ -10,8 +10,8 @@
 #define SAME_DIRECTION 1e-12 /* of delta lobes: squared distance */
 
 /* Fills finishes.weights: of each variant, the weights of the target's finishes at the vertex. They are those of its
- * texture's map, of finishes, which sum to 1, or of normals; without one, 1 of the finish that is shown. Returns whether
- * any variant has a map. */
+ * texture's map, of finishes, which sum to 1, or of normals; without one, 1 of the finish that is shown. Returns
+ * whether any variant has a map. */
 static __attribute__((noinline)) int look_up_weights(Vertex *v, const RenderVariant *variants, int nvariants)
 {
     VertexFinishes *finishes = &v->finishes;

@@ -3,36 +3,10 @@
 #include <string.h>
 #include <retex/set_file.h>
 
-#include "set/transfer.h"
+#include "set/keep.h"
 #include "set/manifest.h"
 #include "set/references.h"
 #include "set/source.h"
-
-/* Loads those of the wanted parts that have no pixels; on failure none is loaded. */
-static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
-{
-    RetexImage *loaded = calloc((size_t)set->nparts + 1, sizeof *loaded);
-    RetexImageTransfer *images = calloc((size_t)set->nparts + 1, sizeof *images);
-    int missing = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
-
-    for (int i = 0; !code && i < set->nparts; i++) {
-        const RetexImage *shape = &set->parts[i].image;
-        if (!wanted[i] || shape->pixels)
-            continue;
-        images[missing++] = (RetexImageTransfer){.part = i, .image = &loaded[i]};
-        code = retex_image_alloc(&loaded[i], shape->width, shape->height, shape->channels, err);
-    }
-    if (!code)
-        code = retex_transfer_images(images, missing, set, NULL, nthreads, err);
-    for (int i = 0; loaded && i < set->nparts; i++)
-        if (code)
-            retex_image_free(&loaded[i]);
-        else if (loaded[i].pixels)
-            set->parts[i].image = loaded[i];
-    free(loaded);
-    free(images);
-    return code;
-}
 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 {
@@ -41,10 +15,10 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     /* the picture comes last: a pack may compute it from the other parts, which then need not be decoded twice */
     memset(wanted, 1, sizeof wanted);
     wanted[0] = 0;
-    int code = load_parts(set, wanted, nthreads, err);
+    int code = retex_set_keep(set, wanted, NULL, nthreads, err);
     wanted[0] = 1;
     if (!code)
-        code = load_parts(set, wanted, nthreads, err);
+        code = retex_set_keep(set, wanted, NULL, nthreads, err);
     for (int i = 0; i < set->nparts && !code; i++)
         retex_part_set_source(&set->parts[i], NULL, 0);
     return code;
@@ -102,5 +76,5 @@ int retex_set_preload(RetexSet *set, const int *corrected, uint64_t most_bytes, 
 {
     char wanted[RETEX_SET_PARTS_MAX];
     const uint64_t bytes = list_read_parts(set, corrected, wanted);
-    return bytes > most_bytes ? RETEX_OK : load_parts(set, wanted, nthreads, err);
+    return bytes > most_bytes ? RETEX_OK : retex_set_keep(set, wanted, NULL, nthreads, err);
 }

@@ -12,6 +12,7 @@
 #include "base/half.h"
 #include "base/image.h"
 #include "set/references.h"
+#include "set/source.h"
 
 static void find_part(void *context, RetexPartUse use, int user, int *part)
 {
@@ -48,6 +49,8 @@ int retex_term_add_image(RetexTerm *term, const RetexSet *set, int part, RetexEr
 
 void retex_set_view_free(RetexSetView *view)
 {
+    for (int i = 0; i < view->set.nparts; i++)
+        retex_part_set_source(&view->set.parts[i], NULL, 0);
     free(view->set.parts);
     free(view->set.footprints);
     free(view->set.terms);
@@ -85,7 +88,8 @@ int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *in_
         place[i] = in_view[i] ? view->set.nparts : -1;
         if (in_view[i]) {
             view->source[view->set.nparts] = i;
-            view->set.parts[view->set.nparts++] = set->parts[i];
+            view->set.parts[view->set.nparts] = set->parts[i];
+            retex_part_hold(&view->set.parts[view->set.nparts++]);
         }
     }
     for (int i = 0; i < set->nfootprints; i++)

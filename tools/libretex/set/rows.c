@@ -19,39 +19,33 @@ struct RetexRowReader {
     int count;
 };
 
-static OpenSource *find_source(const RetexRowReader *reader, const RetexSetSource *source)
+/* The open source, which is opened by the first call. */
+static int open_source(const OpenSource **result, RetexRowReader *reader, RetexSetSource *source, RetexError *err)
 {
     for (int i = 0; i < reader->count; i++)
-        if (reader->sources[i].source == source)
-            return &reader->sources[i];
-    return NULL;
-}
-
-static int add_source(RetexRowReader *reader, RetexSetSource *source, RetexError *err)
-{
+        if (reader->sources[i].source == source) {
+            *result = &reader->sources[i];
+            return RETEX_OK;
+        }
     OpenSource *sources = realloc(reader->sources, sizeof *sources * ((size_t)reader->count + 1));
     if (!sources)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     reader->sources = sources;
-    const int code = source->reader_open(source, &sources[reader->count].reader, err);
-    sources[reader->count].source = source;
+    OpenSource *open = &sources[reader->count];
+    const int code = source->reader_open(source, &open->reader, err);
+    open->source = source;
     reader->count += !code;
+    *result = open;
     return code;
 }
 
 int retex_row_reader_open(RetexRowReader **result, const RetexSet *set, RetexError *err)
 {
     RetexRowReader *reader = *result = calloc(1, sizeof *reader);
-    int code = reader ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
-    if (code)
-        return code;
+    if (!reader)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     reader->set = set;
-    for (int i = 0; i < set->nparts && !code; i++)
-        if (set->parts[i].source && !find_source(reader, set->parts[i].source))
-            code = add_source(reader, set->parts[i].source, err);
-    if (code)
-        retex_row_reader_close(result);
-    return code;
+    return RETEX_OK;
 }
 
 void retex_row_reader_close(RetexRowReader **result)
@@ -77,10 +71,12 @@ int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const flo
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
         return RETEX_OK;
     }
-    const OpenSource *open = find_source(reader, p->source);
-    if (!open)
-        return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    const int code = open->source->read_row(open->reader, p->source_part, y, row, span, err);
+    const OpenSource *open = NULL;
+    int code = p->source ? open_source(&open, reader, p->source, err)
+                         : retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
+    if (code)
+        return code;
+    code = open->source->read_row(open->reader, p->source_part, y, row, span, err);
     RETEX_ASSERT(code || !*row || retex_span_holds(*span, *row, p->image.width, p->image.channels));
     if (!code && !*row)
         *span = (RetexRowSpan){0, 0};

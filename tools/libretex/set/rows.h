@@ -8,7 +8,7 @@
 
 typedef struct RetexRowReader RetexRowReader; /* one for each thread */
 
-/* Open a reader. Parts may be added to the set while it is open, but no source. */
+/* Open a reader. Each source is opened when the first of its rows is asked for. */
 int retex_row_reader_open(RetexRowReader **reader, const RetexSet *set, RetexError *err);
 void retex_row_reader_close(RetexRowReader **reader);
 

@@ -24,6 +24,13 @@ struct RetexSetSource {
 /* A source begins with one holder, and is closed when the last one releases it, which is NULL afterwards. */
 void retex_source_release(RetexSetSource **source);
 
+/* A part that is copied as a structure holds its source, too. */
+static inline void retex_part_hold(RetexPart *part)
+{
+    if (part->source)
+        part->source->holders++;
+}
+
 /* Let part number `number` of a source be where a part's rows are, in place of what it had; source NULL: none. */
 void retex_part_set_source(RetexPart *part, RetexSetSource *source, int number);
 

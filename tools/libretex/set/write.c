@@ -8,13 +8,13 @@
 
 #include "base/params.h"
 #include "exr/io.h"
+#include "set/keep.h"
 #include "set/laid.h"
 #include "set/manifest.h"
 #include "io/output.h"
 #include "set/parts.h"
 #include "set/references.h"
 #include "set/source.h"
-#include "set/transfer.h"
 
 typedef struct Choice {
     const RetexSet *set;
@@ -149,11 +149,7 @@ typedef struct Writing {
     int count;
     RetexExrStored *stored; /* one for each part that is copied as it is stored */
     int nstored;
-    RetexImageTransfer *copies; /* one for each part that is copied from another open file before the first byte is
-                                   written, as the manifest, which stands first, has the checksums of all */
-    RetexImage *copied;         /* where to, if it is smaller than the picture; else into: */
-    RetexBandStore *store;
-    int ncopies;
+    char kept[RETEX_SET_PARTS_MAX]; /* of the view's parts: 1: brought out of an open file; it has their pixels */
     const char *path;
     RetexExrCompression compress;
     int nthreads;
@@ -171,72 +167,52 @@ static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *lett
     return part;
 }
 
-/* Lets a part be copied into the band store, which is near the file to be written and compressed as that is. */
-static int copy_to_store(Writing *w, RetexExrPart *exr, int *image, RetexError *err)
+/* Whether the chunks of a part are copied as they are stored: those of an open file to a pipe. Whoever reads the pipe
+ * compares the checksums; files are written from what was decoded and compared. */
+static int is_copied(Writing *w, const RetexPart *part)
 {
-    char name[RETEX_NAME_MAX];
-    int code = RETEX_OK;
-    if (!w->store) {
-        code = retex_band_store_create(&w->store, w->whole->width, w->whole->height, 0, w->path, err);
-        if (!code && !w->compress)
-            retex_band_store_set_plain(w->store);
-        if (!code && w->compress == RETEX_EXR_QUICKLY)
-            retex_band_store_set_fast(w->store);
-    }
-    snprintf(name, sizeof name, "part_%d", w->ncopies);
-    if (!code)
-        code = retex_band_store_add(w->store, name, exr->letters, exr->type, image, err);
-    exr->store = w->store;
-    exr->store_image = *image;
-    return code;
+    RetexSetSource *source = part->image.pixels ? NULL : part->source;
+    return source && source->stored && w->compress == RETEX_EXR_QUICKLY &&
+           source->stored(source, part->source_part, part->type, &w->stored[w->nstored]);
 }
 
-/* A part that is in an open file. For a pipe its chunks are copied as they are stored, if they can be; whoever reads
- * the pipe compares the checksums. Files are written from what was decoded and compared. */
-static int add_part_in_source(Writing *w, RetexExrPart *exr, int part, RetexError *err)
+/* Brings all other parts that are in an open file out of it, those of the picture's size into a band store: the
+ * manifest, which stands first in the file to be written, has the checksums of all. */
+static int keep_others(Writing *w, RetexError *err)
 {
-    const RetexPart *own = &w->whole->parts[part];
-    RetexSetSource *source = own->source;
-    RetexExrStored *stored = &w->stored[w->nstored];
-    if (w->compress == RETEX_EXR_QUICKLY && source->stored &&
-        source->stored(source, own->source_part, exr->type, stored)) {
-        exr->stored = stored;
-        w->nstored++;
-        return RETEX_OK;
+    RetexSet *set = &w->view.set;
+    RetexBandStore *store = NULL;
+    int any = 0, code = RETEX_OK;
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexPart *part = &set->parts[i];
+        w->kept[i] = !part->image.pixels && !retex_part_store(part) && !is_copied(w, part);
+        any |= w->kept[i];
     }
-    RetexImage *copied = &w->copied[w->ncopies];
-    RetexImageTransfer *copy = &w->copies[w->ncopies];
-    const int is_large = own->image.width == w->whole->width && own->image.height == w->whole->height;
-    *copy = (RetexImageTransfer){.part = part, .image = copied};
-    int code;
-    if (is_large) {
-        *copied = own->image;
-        code = copy_to_store(w, exr, &copy->store_image, err);
-    } else {
-        code = retex_image_alloc(copied, own->image.width, own->image.height, own->image.channels, err);
-    }
-    exr->image = copied;
-    w->ncopies++;
-    return code;
+    if (any)
+        code = retex_band_store_create(&store, set->width, set->height, 0, w->path, err);
+    if (store && !w->compress)
+        retex_band_store_set_plain(store);
+    if (store && w->compress == RETEX_EXR_QUICKLY)
+        retex_band_store_set_fast(store);
+    return code || !any ? code : retex_set_keep(set, w->kept, store, w->nthreads, err);
 }
 
-/* Lists all parts with the place of their pixels, after copying those of another open file. */
+/* Lists all parts with the place of their pixels. */
 static int list_parts(Writing *w, RetexError *err)
 {
-    int code = 0;
-
+    const int code = keep_others(w, err);
     for (int i = 0; i < w->view.set.nparts && !code; i++) {
         const RetexPart *part = &w->view.set.parts[i];
         RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
         exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
         if (!part->image.pixels && (exr->store = retex_part_store(part)))
             exr->store_image = part->source_part;
-        else if (!part->image.pixels)
-            code = add_part_in_source(w, exr, w->view.source[i], err);
+        else if (is_copied(w, part))
+            exr->stored = &w->stored[w->nstored++];
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
-    return code ? code : retex_transfer_images(w->copies, w->ncopies, w->whole, w->store, w->nthreads, err);
+    return code;
 }
 
 /* Copies the checksums to where the manifest takes them from. */
@@ -285,22 +261,18 @@ static int open_writing(Writing *w, RetexError *err)
     const int most = w->view.set.nparts + 1;
     w->parts = calloc((size_t)most, sizeof *w->parts);
     w->stored = calloc((size_t)most, sizeof *w->stored);
-    w->copies = calloc((size_t)most, sizeof *w->copies);
-    w->copied = calloc((size_t)most, sizeof *w->copied);
-    if (!w->parts || !w->stored || !w->copies || !w->copied)
+    if (!w->parts || !w->stored)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
     return retex_image_alloc(&w->blank, 1, 1, 3, err);
 }
 
 static void close_writing(Writing *w)
 {
-    for (int i = 0; w->copied && i < w->ncopies; i++)
-        retex_image_free(&w->copied[i]);
-    retex_band_store_close(&w->store);
+    for (int i = 0; i < w->view.set.nparts; i++)
+        if (w->kept[i])
+            retex_image_free(&w->view.set.parts[i].image);
     retex_image_free(&w->blank);
     retex_band_sums_free(&w->sums);
-    free(w->copied);
-    free(w->copies);
     free(w->stored);
     free(w->parts);
     retex_set_view_free(&w->view);
