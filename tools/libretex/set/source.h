@@ -1,7 +1,9 @@
-/* Where rows of parts are that are not in memory: an open EXR file, an open pack, or a band store. Private to
- * libretex. */
+/* Where rows of parts are that are not in memory: an open EXR file, an open pack, a band store, or a view that computes
+ * them. Private to libretex. */
 #ifndef RETEX_SET_SOURCE_H
 #define RETEX_SET_SOURCE_H
+
+#include <stdatomic.h>
 
 #include "base/row_span.h"
 #include "exr/stored.h"
@@ -18,7 +20,7 @@ struct RetexSetSource {
     int (*read_row)(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
     /* The chunks of a part as they are stored; 0 where they cannot be copied into an EXR file. NULL: none can. */
     int (*stored)(RetexSetSource *source, int part, RetexPixelType type, RetexExrStored *stored);
-    int holders; /* parts, and whoever made it */
+    atomic_int holders; /* parts, and whoever made it; files are written of one set by several threads */
 };
 
 /* A source begins with one holder, and is closed when the last one releases it, which is NULL afterwards. */
