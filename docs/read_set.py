@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads a set of retex, or a stream with samples, and makes its picture: retex-set(5) as a program.
+"""Reads a set of retex, with textures laid on it or not, and makes its picture: retex-set(5) as a program.
 
     read_set.py SET.exr PICTURE.pfm [Floor=0.8,0.2,0.1] [Wall=oak.png] [finish:Floor=polished] [light:Lamp=1.2,1,0.8]
 Colours are scene-linear, an image is laid once on each unit of u and v, a lamp takes a new value. Made to be read, it
@@ -33,8 +33,7 @@ def read_file(path):
     known("kind of file", manifest["kind"])
     blank = begin + "00000000" + text[len(begin) + 8:]
     zlib.crc32(blank.encode()) == int(manifest["crc32"], 16) or sys.exit("read_set.py: the manifest is damaged")
-    samples = [image["part"] for image in manifest.get("samples", {}).get("images", []) if image["part"]]
-    listed, parts, index = {part["name"]: part for part in manifest["parts"] + samples}, {}, 0
+    listed, parts, index = {part["name"]: part for part in manifest["parts"]}, {}, 0
     while file.seek_subimage(index, 0):
         part, channels = listed.get(file.spec().getattribute("name")), list(file.spec().channelnames)
         if part:  # channels are found by name, for EXR sorts them; those of part 0 have no prefix
@@ -83,9 +82,10 @@ class Picture:
         self.m, self.parts = read_file(path)
         self.targets, self.footprints = self.m["targets"], self.m["footprints"]
         self.size, self.samples = (self.m["height"], self.m["width"]), {}
-        for f, image in ((f, i) for f, i in enumerate(self.m.get("samples", {}).get("images", [])) if i["part"]):
-            key = image.get("footprint", f), image.get("finish", "color")
-            self.samples[("gate", image["target"]) if key[0] < 0 else key] = self.parts[image["part"]["name"]]
+        self.samples |= {("gate", t): self.parts[of["gates"]] for t, of in enumerate(self.targets) if "gates" in of}
+        for i, f in ((i, f) for i, f in enumerate(self.footprints) if "sampled" in f):
+            self.samples[i, "color"] = self.parts[f["sampled"]]
+            self.samples |= {(i, k): self.parts[name] for k, name in enumerate(f.get("finished", []))}
         self.textures = {t: textures[of["name"]] for t, of in enumerate(self.targets) if of["name"] in textures}
         self.mapped = {t for t in range(8) if ("gate", t) in self.samples or "gate" in self.textures.get(t, {})}
         self.edited = {f["target"] for i, f in enumerate(self.footprints) if (i, "color") in self.samples}

@@ -125,7 +125,7 @@ $ damage t.exr $(($(wc -c <t.exr) * 3 / 4))
 $ retex-combine -q s.exr d.exr -o u.png 2>err
 = 2
 $ cut -d: -f1-4 err
-> retex-combine: error: d.exr: part sample_Floor_2 is damaged or truncated
+> retex-combine: error: d.exr: part sample_Floor_1 is damaged or truncated
 $ ls u.png
 ! ls: cannot access 'u.png': No such file or directory
 = 2

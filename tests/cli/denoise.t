@@ -224,8 +224,8 @@ $ any_part err
 > retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
 $ retex-sample -q s.exr --texture 'floor=rgb(1,0,0)' | retex-denoise - -o x.exr 2>err
 = 2
-$ any_part err
-> retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
+$ cat err
+> retex-denoise: error: a texture is laid on Floor: a denoised set is made of the set without it
 
 # Input that is no set, or damaged: one line, and nothing is written.
 $ retex-denoise none.exr -o x.exr

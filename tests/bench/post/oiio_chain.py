@@ -18,7 +18,8 @@ class Chain:
     def __init__(self, manifest_of_set, samples):
         self.set, self.mixed = manifest_of_set, {}
         self.parts = {part["name"]: part for part in self.set["parts"]}
-        self.samples = [image["part"] for image in samples["samples"]["images"]]
+        of_samples = {part["name"]: part for part in samples["parts"]}
+        self.samples = [of_samples.get(footprint.get("sampled")) for footprint in samples["footprints"]]
         footprints = self.set["footprints"]
         self.edited = {f["target"] for f, part in zip(footprints, self.samples) if part is not None}
 
